@@ -1,0 +1,52 @@
+// Renders away from the user interface: a thread with its own OpenGL context that shares textures with the window's.
+// The latest request wins: work on an older one is dropped between two bounded dispatches, and no sample of an
+// old scene survives in a new picture. Compiling happens here too; meanwhile the last good picture stays.
+#pragma once
+
+#include "renderer/context.h"
+#include "renderer/statistics.h"
+#include "renderer/views.h"
+#include "sdf/scene.h"
+
+#include <glm/vec2.hpp>
+
+#include <memory>
+#include <string>
+
+namespace farfield {
+
+struct RenderRequest {
+    std::shared_ptr<const Scene> scene;  ///< null: nothing is rendered
+    glm::ivec2 size{0};                  ///< pixels
+    View view = View::result;
+    bool interacting = false;  ///< a hand is moving something: stay on the program that needs no recompile
+    int max_frames = 0;        ///< stop after so many accumulated frames; 0: go on for ever
+};
+
+struct RenderedPicture {
+    unsigned texture = 0;  ///< RGBA8, display-ready, row 0 at the top; 0 until the first picture is there
+    glm::ivec2 size{0};
+    std::uint64_t serial = 0;  ///< counts pictures
+    Statistics statistics;
+    std::string error;  ///< why the latest scene is not the one in the picture; empty when it is
+};
+
+class RenderThread {
+public:
+    /// `context` is made current on the thread and nowhere else. It shares objects with the caller's context.
+    explicit RenderThread(std::unique_ptr<Context> context);
+    ~RenderThread();
+    RenderThread(const RenderThread&) = delete;
+    RenderThread& operator=(const RenderThread&) = delete;
+
+    void submit(RenderRequest request);  ///< never waits
+    /// The newest finished picture; never waits for rendering. Its texture stays valid and unchanged until the next call of acquire.
+    /// Call with the sharing context current: the call makes that context wait for the picture's fence.
+    RenderedPicture acquire();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace farfield

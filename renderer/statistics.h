@@ -1,0 +1,30 @@
+// What the renderer reports about its work; plain data, safe to copy between threads.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace farfield {
+
+struct PassTime {
+    std::string name;
+    double milliseconds = 0.0;  ///< of the last frame
+};
+
+struct Statistics {
+    std::vector<PassTime> passes;
+    double frame_milliseconds = 0.0;  ///< wall time of the last frame, all passes
+    double frames_per_second = 0.0;   ///< smoothed
+    int frames = 0;                   ///< accumulated since the last reset
+    int samples = 0;                  ///< hemisphere rays per pixel accumulated since the last reset
+    int structural_compiles = 0;      ///< programs made because the structure changed; a parameter edit never adds one
+    int specialisations = 0;          ///< programs made with literals once the hand rested
+    double compile_milliseconds = 0.0;  ///< of the last program
+    bool specialised = false;           ///< the picture comes from the program with literals
+    std::uint64_t rays = 0;             ///< traced in the last frame
+    std::uint64_t exhausted_rays = 0;   ///< of these, stopped by the step limit
+    std::string device;                 ///< what OpenGL calls the renderer
+};
+
+}  // namespace farfield

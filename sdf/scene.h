@@ -1,0 +1,108 @@
+// The document: a tree of shapes and operations, materials, lights, sky, camera and render settings, as plain values.
+// y is up, right-handed, metres; angles in degrees here (radians in generated code); radiance linear Rec. 709.
+#pragma once
+
+#include "sdf/node_kinds.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace farfield {
+
+/// Identifies a node, material or light for the life of the document; never reused, 0 means none. Not saved.
+using Id = std::uint32_t;
+
+/// Places a node in its parent's frame: scale first, then rotate, then translate.
+struct Transform {
+    glm::vec3 translate{0.0f};  ///< metres
+    glm::vec3 rotate{0.0f};     ///< degrees about x, then y, then z (fixed axes)
+    float scale = 1.0f;         ///< uniform, > 0
+};
+
+struct Node {
+    Id id = 0;
+    NodeKind kind = NodeKind::union_;
+    std::string name;               ///< unique in the scene when not empty
+    std::vector<glm::vec3> values;  ///< one for each parameter of the kind, in the table's order
+    Transform transform;
+    Id material = 0;  ///< 0: that of the nearest ancestor that has one, or the scene's first material
+    std::vector<Node> children;
+};
+
+/// Lambert reflection plus a normalised Phong highlight on direct light.
+struct Material {
+    Id id = 0;
+    std::string name;  ///< unique, not empty
+    glm::vec3 albedo{0.8f};
+    float specular = 0.0f;   ///< fraction of the light in the highlight, 0..1
+    float exponent = 32.0f;  ///< Phong exponent, >= 1
+    glm::vec3 emission{0.0f};  ///< emitted radiance, W/(m² sr)
+};
+
+enum class LightKind { point, directional };
+
+struct Light {
+    Id id = 0;
+    std::string name;  ///< unique, not empty
+    LightKind kind = LightKind::point;
+    glm::vec3 position{0.0f, 3.0f, 0.0f};  ///< point: metres
+    glm::vec3 direction{0.0f, -1.0f, 0.0f};  ///< directional: the way the light travels; any length but 0
+    glm::vec3 intensity{10.0f};  ///< point: radiant intensity, W/sr; directional: irradiance across the beam, W/m²
+};
+
+/// Radiance from directions that meet no surface: horizon at and below y = 0, zenith straight up, linear in y between.
+struct Sky {
+    glm::vec3 horizon{0.0f};
+    glm::vec3 zenith{0.0f};
+};
+
+struct Camera {
+    glm::vec3 position{3.0f, 2.5f, 5.0f};
+    glm::vec3 target{0.0f, 0.5f, 0.0f};
+    float field_of_view = 40.0f;  ///< vertical, degrees
+};
+
+enum class Method { paper, reference };
+
+/// How the scene is rendered; saved with it, because a good AO radius or exposure belongs to the scene.
+struct Settings {
+    Method method = Method::paper;
+    int samples = 4;         ///< hemisphere rays per pixel and frame
+    int bounces = 1;         ///< diffuse bounces of far light
+    int blur_levels = 3;     ///< mip level at which far light is blurred; 0 leaves it unfiltered
+    float ao_radius = 0.5f;  ///< metres
+    float exposure = 0.0f;   ///< stops: the picture is multiplied by 2^exposure
+};
+
+struct Scene {
+    Node root;  ///< a union named "scene"; never removed
+    std::vector<Material> materials;  ///< never empty
+    std::vector<Light> lights;
+    Sky sky;
+    Camera camera;
+    Settings settings;
+    Id next_id = 1;
+
+    Scene();  ///< an empty root and one material named "default"
+    Id new_id() { return next_id++; }
+};
+
+/// A node of `kind` with default values, no name and id 0 (inserting it assigns ids).
+Node make_node(NodeKind kind);
+
+const Node* find_node(const Scene& scene, Id id);
+Node* find_node(Scene& scene, Id id);
+/// The parent of node `id`; null for the root and for unknown ids.
+const Node* find_parent(const Scene& scene, Id id);
+const Material* find_material(const Scene& scene, Id id);
+const Light* find_light(const Scene& scene, Id id);
+
+/// What the user calls the node: its name, or the kind's label where it has none.
+std::string display_name(const Node& node);
+
+int count_nodes(const Node& node);  ///< itself and everything below
+
+}  // namespace farfield
