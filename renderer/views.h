@@ -7,6 +7,7 @@
 
 namespace farfield {
 
+/// The values are shared with shaders/synthesis.glsl.
 enum class View { result, direct, coarse, filtered, direct_filtered, occlusion, normals, depth, steps };
 
 struct ViewInfo {
@@ -16,7 +17,24 @@ struct ViewInfo {
     const char* tip;
 };
 
-std::span<const ViewInfo> views();
-std::optional<View> find_view(std::string_view key);
+inline constexpr ViewInfo view_table[] = {
+    {View::result, "result", "Result", "Direct light plus albedo x ambient occlusion x filtered far light"},
+    {View::direct, "direct", "Direct light", "Emission, Lambert and Phong reflection of the lights, with hard shadows"},
+    {View::coarse, "coarse", "Coarse far light", "Monte-Carlo far light as accumulated, on a white surface"},
+    {View::filtered, "filtered", "Filtered far light", "Far light after the mip chain and the blur, on a white surface"},
+    {View::direct_filtered, "direct+filtered", "Direct + filtered", "Direct light plus albedo x filtered far light, without ambient occlusion"},
+    {View::occlusion, "occlusion", "Ambient occlusion", "The fraction of short hemisphere rays that leave the AO radius"},
+    {View::normals, "normals", "Normals", "World-space normals, each component from -1..1 to 0..1"},
+    {View::depth, "depth", "Depth", "Distance from the camera in metres; the display maps it to near white, far black"},
+    {View::steps, "steps", "Step count", "Distance evaluations of the camera ray; the display maps 0 to black and 128 to white"},
+};
+
+inline std::span<const ViewInfo> views() { return view_table; }
+
+inline std::optional<View> find_view(std::string_view key) {
+    for (const ViewInfo& v : view_table)
+        if (key == v.key) return v.view;
+    return std::nullopt;
+}
 
 }  // namespace farfield
