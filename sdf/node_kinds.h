@@ -23,7 +23,7 @@ enum class Role {
     primitive,  ///< float f(vec3 p, parameters...): signed distance, no children
     combine,    ///< float f(float a, float b, parameters...): folds the children from first to last
     domain,     ///< vec3 f(vec3 p, parameters...): moves the point before the children (a hard union) see it
-    repeat,     ///< vec3 f(vec3 p, parameters..., int cell): as domain, and the least over 8 neighbour cells counts
+    repeat,     ///< vec3 f(vec3 p, parameters..., int cell): as domain, and the least over its cells counts
     distance,   ///< float f(float d, parameters...): changes the distance of the children (a hard union)
 };
 
@@ -39,13 +39,17 @@ struct KindInfo {
     bool exact;  ///< the exact distance (of exact children); otherwise a lower bound of it
     std::vector<Parameter> parameters;
     const char* function;  ///< in shapes.glsl
-    const char* secondary;  ///< combine: fraction of b's material, f(a, b, parameters...); domain: safe distance, f(d, p, parameters...); or null
+    /// A second function of shapes.glsl, or null. combine: float f(a, b, parameters...), the fraction of b's material;
+    /// domain: float f(d, p, parameters...), a safe distance; repeat: int f(parameters...), the number of cells.
+    const char* secondary;
+    const char* when_zero;  ///< combine: GLSL of {0} and {1} to use when all parameters are known to be 0
     /// The same functions on the CPU, whichever the role uses.
     float (*primitive)(glm::vec3 p, Values v);
     float (*combine)(float a, float b, Values v);
     float (*weight)(float a, float b, Values v);
     glm::vec3 (*domain)(glm::vec3 p, Values v, int cell);
     float (*distance)(float d, glm::vec3 p, Values v);
+    int (*cells)(Values v);
 
     bool takes_children() const { return role != Role::primitive; }
 };
