@@ -201,4 +201,8 @@ std::optional<NodeKind> find_kind(std::string_view key) {
     return std::nullopt;
 }
 
+std::uint32_t blend_materials(std::uint32_t a, std::uint32_t b, float share_of_b) {
+    return shapes::blend_materials(a, b, share_of_b);
+}
+
 }  // namespace farfield

@@ -5,6 +5,7 @@
 
 #include <glm/vec3.hpp>
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -57,5 +58,9 @@ struct KindInfo {
 std::span<const KindInfo> node_kinds();
 const KindInfo& info(NodeKind kind);
 std::optional<NodeKind> find_kind(std::string_view key);
+
+/// blend_materials of shapes.glsl: two material indices and the share of the second in one code.
+std::uint32_t blend_materials(std::uint32_t a, std::uint32_t b, float share_of_b);
+inline constexpr std::size_t largest_material_count = 4096;
 
 }  // namespace farfield

@@ -1,5 +1,7 @@
 #include "sdf/scene.h"
 
+#include <glm/trigonometric.hpp>
+
 #include <algorithm>
 #include <utility>
 
@@ -29,6 +31,15 @@ const Node* find_parent_below(const Node& node, Id id) {
 
 }  // namespace
 
+glm::mat3 rotation_matrix(const Transform& transform) {
+    const glm::dvec3 a = glm::radians(glm::dvec3(transform.rotate));
+    const glm::dvec3 c = glm::cos(a), s = glm::sin(a);
+    const glm::dmat3 x(1.0, 0.0, 0.0, 0.0, c.x, s.x, 0.0, -s.x, c.x);
+    const glm::dmat3 y(c.y, 0.0, -s.y, 0.0, 1.0, 0.0, s.y, 0.0, c.y);
+    const glm::dmat3 z(c.z, s.z, 0.0, -s.z, c.z, 0.0, 0.0, 0.0, 1.0);
+    return glm::mat3(z * y * x);
+}
+
 Scene::Scene() {
     root = make_node(NodeKind::union_);
     root.id = new_id();
@@ -53,6 +64,18 @@ const Material* find_material(const Scene& scene, Id id) { return find_by_id(sce
 const Light* find_light(const Scene& scene, Id id) { return find_by_id(scene.lights, id); }
 
 std::string display_name(const Node& node) { return node.name.empty() ? info(node.kind).label : node.name; }
+
+std::uint32_t material_index(const Scene& scene, Id id, std::uint32_t inherited) {
+    const Material* material = find_material(scene, id);
+    return material ? static_cast<std::uint32_t>(material - scene.materials.data()) : inherited;
+}
+
+bool is_empty(const Node& node) {
+    if (!info(node.kind).takes_children()) return false;
+    if (node.children.empty()) return true;
+    if (node.kind == NodeKind::subtract) return is_empty(node.children[0]);
+    return std::all_of(node.children.begin(), node.children.end(), is_empty);
+}
 
 int count_nodes(const Node& node) {
     int count = 1;

@@ -4,6 +4,7 @@
 
 #include "sdf/node_kinds.h"
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include <cstdint>
@@ -21,6 +22,9 @@ struct Transform {
     glm::vec3 rotate{0.0f};     ///< degrees about x, then y, then z (fixed axes)
     float scale = 1.0f;         ///< uniform, > 0
 };
+
+/// The rotation part: parent = rotation * (scale * own) + translate.
+glm::mat3 rotation_matrix(const Transform& transform);
 
 struct Node {
     Id id = 0;
@@ -43,6 +47,7 @@ struct Material {
 };
 
 enum class LightKind { point, directional };
+inline constexpr const char* light_kind_keys[] = {"point", "directional"};  ///< in files
 
 struct Light {
     Id id = 0;
@@ -102,6 +107,12 @@ const Light* find_light(const Scene& scene, Id id);
 
 /// What the user calls the node: its name, or the kind's label where it has none.
 std::string display_name(const Node& node);
+
+/// Index in scene.materials of material `id`; `inherited` for 0 and unknown ids.
+std::uint32_t material_index(const Scene& scene, Id id, std::uint32_t inherited);
+
+/// Whether the node adds no shape: a group without shapes below it, or a subtraction from such.
+bool is_empty(const Node& node);
 
 int count_nodes(const Node& node);  ///< itself and everything below
 

@@ -158,3 +158,14 @@ float shell(float d, float thickness) {
 float inflate(float d, float radius) {
     return d - radius;
 }
+
+// ---- material --------------------------------------------------------------------------------------------------------
+
+// A material code holds two material indices of 12 bits and, in the upper 8 bits, the second one's share in 1/255.
+// Blends code b into a with the given share of b; where a or b is a blend itself its larger part stands for it.
+uint blend_materials(uint a, uint b, float share_of_b) {
+    uint share = uint(share_of_b * 255.0f + 0.5f);
+    uint first = (a >> 24u) < 128u ? a & 0xfffu : (a >> 12u) & 0xfffu;
+    uint second = (b >> 24u) < 128u ? b & 0xfffu : (b >> 12u) & 0xfffu;
+    return share == 0u ? a : share == 255u ? b : first | (second << 12u) | (share << 24u);
+}

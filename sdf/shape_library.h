@@ -1,0 +1,13 @@
+// The functions of shapes.glsl, one by one, so that a program gets only those that it calls.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace farfield {
+
+/// The functions of shapes.glsl that `code` calls, directly or through each other, in the file's order and with their
+/// comments, each followed by an empty line.
+std::string used_shapes(std::string_view code);
+
+}  // namespace farfield
