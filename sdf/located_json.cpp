@@ -57,19 +57,19 @@ std::string printable(std::string_view text) {
     return dumped.substr(1, dumped.size() - 2);
 }
 
-/// "[json.exception.parse_error.101] parse error at line 3, column 5: syntax error while parsing value - invalid literal;
-/// last read: 'N'" without what our own message says anyway.
+/// "[json.exception.parse_error.101] parse error at line 3, column 5: syntax error while parsing value - invalid
+/// literal; last read: 'N'" without what our own message says anyway.
 std::string syntax_problem(std::string_view message) {
     for (std::string_view mark : {": syntax error while parsing ", ": ", "] "})
         if (size_t at = message.find(mark); at != std::string_view::npos) {
             message.remove_prefix(at + mark.size());
             break;
         }
-    if (message.starts_with("number overflow"))
-        return "a number is too large, expected a finite number";
+    if (message.starts_with("number overflow")) return "a number is too large, expected a finite number";
     std::string problem = "not valid JSON: " + shortened(message, 200);
     std::string clean;
-    for (char c : problem) clean += static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e ? '?' : c;
+    for (char c : problem)
+        clean += static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e ? '?' : c;
     return clean;
 }
 
@@ -99,9 +99,9 @@ public:
 
     bool key(string_t& key) {
         Frame& frame = open_.back();
-        if (auto [first, fresh] = frame.keys.try_emplace(key, lines_.token); !fresh)
-            fail(fmt::format("{} is given twice, expected it once (the first is on line {})", quoted(key), first->second));
-        std::get<Json::Object>(frame.container->value).push_back({std::move(key), lines_.token, {}});
+        std::get<Json::Object>(frame.container->value).push_back({key, lines_.token, {}});
+        if (auto [first, fresh] = frame.keys.try_emplace(std::move(key), lines_.token); !fresh)
+            fail(fmt::format("is given twice, expected once (the first is on line {})", first->second));
         return true;
     }
 
@@ -123,7 +123,8 @@ private:
             JsonPath& inside = path[i + 1];
             inside.parent = &path[i];
             if (const auto* array = container.as<Json::Array>())
-                inside.index = i + 1 < open_.size() ? static_cast<int>(array->size()) - 1 : static_cast<int>(array->size());
+                inside.index =
+                    i + 1 < open_.size() ? static_cast<int>(array->size()) - 1 : static_cast<int>(array->size());
             else if (const auto* object = container.as<Json::Object>(); object && !object->empty())
                 inside.key = object->back().key;
         }
@@ -146,7 +147,8 @@ private:
     template <class T>
     bool open(T container) {
         if (open_.size() >= deepest_json) {
-            throw JsonError(lines_.token, "", fmt::format("nested too deeply, expected at most {} levels", deepest_json));
+            throw JsonError(lines_.token, "",
+                            fmt::format("nested too deeply, expected at most {} levels", deepest_json));
         }
         Json& json = place();
         json.value = std::move(container);
@@ -183,7 +185,7 @@ std::string JsonPath::text() const {
         else if (!(*p)->key.empty())
             text += (text.empty() ? "" : "/") + shortened(printable((*p)->key), 100);
         const Json* name = (*p)->index >= 0 && (*p)->value ? (*p)->value->find("name") : nullptr;
-        if (name && name->as<std::string>()) text += " " + quoted(*name->as<std::string>());
+        if (name && name->as<std::string>()) text += " " + in_quotes(*name->as<std::string>());
     }
     return text;
 }
@@ -191,8 +193,8 @@ std::string JsonPath::text() const {
 Json parse_json(std::string_view text) {
     LineCounter lines;
     Builder builder(lines);
-    nlohmann::json::sax_parse(CountingIterator(text.data(), &lines), CountingIterator(text.data() + text.size(), &lines),
-                              &builder);
+    nlohmann::json::sax_parse(CountingIterator(text.data(), &lines),
+                              CountingIterator(text.data() + text.size(), &lines), &builder);
     return builder.take();
 }
 
@@ -201,13 +203,13 @@ std::string description(const Json& json) {
         std::string operator()(std::nullptr_t) const { return "null"; }
         std::string operator()(bool b) const { return b ? "true" : "false"; }
         std::string operator()(double d) const { return fmt::format("{}", d); }
-        std::string operator()(const std::string& s) const { return quoted(s); }
+        std::string operator()(const std::string& s) const { return in_quotes(s); }
         std::string operator()(const Json::Array& a) const { return fmt::format("an array of {}", a.size()); }
         std::string operator()(const Json::Object&) const { return "an object"; }
     };
     return std::visit(Describe{}, json.value);
 }
 
-std::string quoted(std::string_view text) { return '"' + printable(shortened(text, 60)) + '"'; }
+std::string in_quotes(std::string_view text) { return '"' + printable(shortened(text, 60)) + '"'; }
 
 }  // namespace farfield

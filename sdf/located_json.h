@@ -1,11 +1,13 @@
-// JSON with the line of every value, for errors that point into the file. Parsing is nlohmann's; the tree is ours because
-// his does not keep lines. Beyond JSON's own rules a key must not be given twice, numbers must be finite in double
-// precision, and nesting is limited, so that no file can exhaust the stack of whoever walks the tree.
+// JSON with the line of every value, for errors that point into the file. Parsing is nlohmann's; the tree is ours
+// because his does not keep lines. Beyond JSON's own rules a key must not be given twice, numbers must be finite in
+// double precision, and nesting is limited, so that no file can exhaust the stack of whoever walks the tree.
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -33,19 +35,20 @@ struct JsonMember {
     Json value;
 };
 
-/// Where a value stands in the document; a chain on the stack of whoever walks the tree, turned to text for errors only.
+/// Where a value stands in the document; a chain on the stack of whoever walks the tree, turned to text for errors
+/// only.
 struct JsonPath {
     const JsonPath* parent = nullptr;
-    std::string_view key;   ///< of a member
-    int index = -1;         ///< of an array's element, otherwise negative
+    std::string_view key;         ///< of a member
+    int index = -1;               ///< of an array's element, otherwise negative
     const Json* value = nullptr;  ///< an object's "name", where it has one, is part of the text
 
     std::string text() const;  ///< as root/children[2] "ring"/radius
 };
 
 struct JsonError : std::runtime_error {
-    JsonError(int line, std::string path, const std::string& problem)
-        : std::runtime_error(problem), line(line), path(std::move(path)) {}
+    JsonError(int at_line, std::string at_path, const std::string& problem)
+        : std::runtime_error(problem), line(at_line), path(std::move(at_path)) {}
     int line;
     std::string path;
 };
@@ -59,6 +62,6 @@ Json parse_json(std::string_view text);
 std::string description(const Json& json);
 
 /// Text in quotes for a message: shortened, without control characters and invalid UTF-8.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 }  // namespace farfield

@@ -14,7 +14,7 @@ namespace farfield {
 /// A file that could not be read or does not describe a scene. what() is one line:
 /// "FILE:LINE: PATH: what was wrong, expected ..." where PATH is like root/children[2] "ring"/radius.
 struct SceneFileError : std::runtime_error {
-    SceneFileError(std::string file, int line, std::string path, std::string problem);
+    SceneFileError(std::string in_file, int at_line, std::string at_path, std::string what_is_wrong);
     std::string file;
     int line;  ///< from 1; 0 when the file as a whole is meant
     std::string path;

@@ -1,0 +1,318 @@
+// Scene from text. What a scene file may hold is told by node_kinds and fields; here is only how the tables meet JSON.
+#include "sdf/fields.h"
+#include "sdf/located_json.h"
+#include "sdf/scene_format.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+
+namespace farfield {
+namespace {
+
+using Keys = std::vector<std::string_view>;
+
+/// Levenshtein distance.
+size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), size_t{0});
+    for (size_t i = 0; i < a.size(); ++i) {
+        size_t diagonal = std::exchange(row[0], i + 1);
+        for (size_t j = 0; j < b.size(); ++j) {
+            size_t substituted = diagonal + (a[i] != b[j]);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, substituted});
+        }
+    }
+    return row.back();
+}
+
+/// "expected one of a, b, c (perhaps b)"
+std::string expected_one_of(const Keys& known, std::string_view found) {
+    std::string text = fmt::format("expected {}{}", known.size() == 1 ? "" : "one of ", fmt::join(known, ", "));
+    auto distance = [&](std::string_view key) { return edit_distance(key, found.substr(0, 64)); };
+    auto nearest =
+        std::min_element(known.begin(), known.end(), [&](auto a, auto b) { return distance(a) < distance(b); });
+    if (known.size() > 1 && nearest != known.end() && distance(*nearest) <= std::max<size_t>(1, nearest->size() / 3))
+        text += fmt::format(" (perhaps {})", *nearest);
+    return text;
+}
+
+float narrowed(double number) {
+    // A double beyond float's range has no defined conversion.
+    constexpr double largest = std::numeric_limits<float>::max();
+    if (std::abs(number) > largest)
+        return std::copysign(std::numeric_limits<float>::infinity(), static_cast<float>(number > 0) - 0.5f);
+    return static_cast<float>(number);
+}
+
+class Reader {
+public:
+    explicit Reader(const std::string& file) : file_(file) {}
+
+    Scene read(const Json& document) {
+        const JsonPath top;
+        const Json::Object& object = object_in(document, top, "a scene");
+        check_version(document, top);
+        check_keys(object, top,
+                   {format::version_key, format::camera, format::settings, format::sky, format::materials,
+                    format::lights, format::root});
+        read_section(document, top, format::camera, scene_.camera);
+        read_section(document, top, format::settings, scene_.settings);
+        read_section(document, top, format::sky, scene_.sky);
+        if (const Json* materials = document.find(format::materials))
+            read_materials(*materials, {&top, format::materials});
+        else
+            material_ids_.emplace(scene_.materials.front().name, scene_.materials.front().id);
+        if (const Json* lights = document.find(format::lights)) read_lights(*lights, {&top, format::lights});
+        const Json* root = document.find(format::root);
+        if (!root) fail(top, document.line, "has no \"root\", expected the union that holds the scene's nodes");
+        scene_.root = read_node(*root, {&top, format::root, -1, root});
+        if (scene_.root.kind != NodeKind::union_)
+            fail({&top, format::root}, root->line,
+                 fmt::format("is a {}, expected a union", info(scene_.root.kind).key));
+        return std::move(scene_);
+    }
+
+private:
+    [[noreturn]] void fail(const JsonPath& path, int line, const std::string& problem) const {
+        throw SceneFileError(file_, line, path.text(), problem);
+    }
+    [[noreturn]] void unexpected(const JsonPath& path, const Json& found, std::string_view expected) const {
+        fail(path, found.line, fmt::format("found {}, expected {}", description(found), expected));
+    }
+
+    const Json::Object& object_in(const Json& json, const JsonPath& path, std::string_view what) const {
+        const auto* object = json.as<Json::Object>();
+        if (!object) unexpected(path, json, fmt::format("an object that describes {}", what));
+        return *object;
+    }
+
+    void check_version(const Json& document, const JsonPath& top) const {
+        const Json* version = document.find(format::version_key);
+        if (!version)
+            fail(top, document.line,
+                 fmt::format("has no \"{}\", expected the format's version, which is {}", format::version_key,
+                             format::version));
+        const double* number = version->as<double>();
+        const JsonPath path{&top, format::version_key};
+        if (number && *number > format::version && *number == std::floor(*number))
+            fail(path, version->line,
+                 fmt::format("the file has version {}, expected at most {}: it needs a newer Farfield",
+                             description(*version), format::version));
+        if (!number || *number != format::version)
+            unexpected(path, *version, fmt::format("version {}", format::version));
+    }
+
+    void check_keys(const Json::Object& object, const JsonPath& path, const Keys& known) const {
+        for (const JsonMember& member : object)
+            if (std::find(known.begin(), known.end(), member.key) == known.end())
+                fail({&path, member.key}, member.line, "unknown key, " + expected_one_of(known, member.key));
+    }
+
+    /// A member that must be there and be one of a list of names; returns its index.
+    size_t read_name_of(const Keys& known, const Json& object, const JsonPath& path, const char* key) const {
+        const Json* json = object.find(key);
+        if (!json) fail(path, object.line, fmt::format("has no \"{}\", {}", key, expected_one_of(known, "")));
+        return index_of_name(known, *json, {&path, key});
+    }
+
+    size_t index_of_name(const Keys& known, const Json& json, const JsonPath& path) const {
+        const auto* name = json.as<std::string>();
+        auto found = name ? std::find(known.begin(), known.end(), *name) : known.end();
+        if (found == known.end())
+            fail(path, json.line,
+                 fmt::format("found {}, {}", description(json), expected_one_of(known, name ? *name : "")));
+        return static_cast<size_t>(found - known.begin());
+    }
+
+    void check_name(const std::string& name, const JsonPath& path, int line) const {
+        if (name.empty()) fail(path, line, "the name is empty, expected at least one character");
+        if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
+            fail(path, line, "the name holds a control character, expected printable text");
+    }
+
+    float read_component(const Json& json, const Parameter& parameter, const JsonPath& path) const {
+        if (parameter.type == ParameterType::flags) {
+            const bool* flag = json.as<bool>();
+            if (!flag) unexpected(path, json, "true or false");
+            return *flag ? 1.0f : 0.0f;
+        }
+        const double* number = json.as<double>();
+        if (!number) unexpected(path, json, parameter.components() == 1 ? expectation(parameter) : "a number");
+        const float component = narrowed(*number);
+        // The same value in all places asks about one component alone, so that the message names its line.
+        if (std::string why = why_refused(parameter, glm::vec3(component)); !why.empty())
+            fail(path, json.line, fmt::format("found {}, {}", description(json), why));
+        return component;
+    }
+
+    glm::vec3 read_value(const Json& json, const Parameter& parameter, const JsonPath& path) const {
+        if (parameter.type == ParameterType::choice) {
+            const Keys known(parameter.choices.begin(), parameter.choices.end());
+            return glm::vec3(static_cast<float>(index_of_name(known, json, path)), 0.0f, 0.0f);
+        }
+        if (parameter.components() == 1) return glm::vec3(read_component(json, parameter, path), 0.0f, 0.0f);
+        const auto* array = json.as<Json::Array>();
+        if (!array || array->size() != 3) unexpected(path, json, expectation(parameter));
+        glm::vec3 value;
+        for (int i = 0; i < 3; ++i) value[i] = read_component((*array)[size_t(i)], parameter, {&path, {}, i});
+        if (std::string why = why_refused(parameter, value); !why.empty())
+            fail(path, json.line, fmt::format("found {}, {}", description(json), why));
+        return value;
+    }
+
+    template <class T, class Applies>
+    void read_fields(const Json& object, const JsonPath& path, T& target, Applies applies) const {
+        for (const Field<T>& field : fields<T>())
+            if (const Json* json = applies(field.parameter.key) ? object.find(field.parameter.key) : nullptr)
+                field.set(target, read_value(*json, field.parameter, {&path, field.parameter.key}));
+    }
+
+    template <class T, class Applies>
+    static void add_keys(Keys& keys, Applies applies) {
+        for (const Field<T>& field : fields<T>())
+            if (applies(field.parameter.key)) keys.push_back(field.parameter.key);
+    }
+
+    /// An object that holds the fields of T, after the keys in `keys`.
+    template <class T, class Applies>
+    void read_object(const Json& json, const JsonPath& path, T& target, Keys keys, Applies applies) const {
+        add_keys<T>(keys, applies);
+        check_keys(*json.as<Json::Object>(), path, keys);
+        read_fields(json, path, target, applies);
+    }
+
+    static bool always(std::string_view) { return true; }
+
+    template <class T>
+    void read_section(const Json& document, const JsonPath& top, const char* key, T& target) const {
+        const Json* json = document.find(key);
+        if (!json) return;
+        const JsonPath path{&top, key};
+        object_in(*json, path, fmt::format("the {}", key));
+        read_object(*json, path, target, {}, always);
+    }
+
+    void read_materials(const Json& json, const JsonPath& path) {
+        const Json::Object& object = object_in(json, path, "the materials by name");
+        if (object.empty()) fail(path, json.line, "is empty, expected at least one material");
+        scene_.materials.clear();
+        for (const JsonMember& member : object) {
+            const JsonPath here{&path, member.key};
+            check_name(member.key, here, member.line);
+            object_in(member.value, here, "a material");
+            Material& material = scene_.materials.emplace_back();
+            material.id = scene_.new_id();
+            material.name = member.key;
+            read_object(member.value, here, material, {}, always);
+            material_ids_.emplace(material.name, material.id);
+        }
+    }
+
+    void read_lights(const Json& json, const JsonPath& path) {
+        for (const JsonMember& member : object_in(json, path, "the lights by name")) {
+            const JsonPath here{&path, member.key};
+            check_name(member.key, here, member.line);
+            object_in(member.value, here, "a light");
+            const Keys kinds(std::begin(light_kind_keys), std::end(light_kind_keys));
+            Light& light = scene_.lights.emplace_back();
+            light.id = scene_.new_id();
+            light.name = member.key;
+            light.kind = static_cast<LightKind>(read_name_of(kinds, member.value, here, format::kind));
+            read_object(member.value, here, light, {format::kind},
+                        [&](std::string_view key) { return applies(light, key); });
+            if (light.kind == LightKind::directional && light.direction == glm::vec3(0.0f))
+                fail({&here, "direction"}, member.value.find("direction")->line,
+                     "found a vector of length 0, expected a direction");
+        }
+    }
+
+    Node read_node(const Json& json, const JsonPath& path) {
+        const Json::Object& object = object_in(json, path, "a node");
+        Keys kinds;
+        for (const KindInfo& kind : node_kinds()) kinds.push_back(kind.key);
+        const KindInfo& kind = node_kinds()[read_name_of(kinds, json, path, format::kind)];
+
+        if (const Json* children = kind.takes_children() ? nullptr : json.find(format::children))
+            fail({&path, format::children}, children->line,
+                 fmt::format("found {}, expected none: a {} has no children", description(*children), kind.key));
+        Keys keys{format::kind, format::name, format::material};
+        for (const Parameter& parameter : kind.parameters) keys.push_back(parameter.key);
+        add_keys<Transform>(keys, always);
+        if (kind.takes_children()) keys.push_back(format::children);
+        check_keys(object, path, keys);
+
+        Node node = make_node(kind.kind);
+        node.id = scene_.new_id();
+        node.name = read_node_name(json, path);
+        node.material = read_material_reference(json, path);
+        for (size_t i = 0; i < kind.parameters.size(); ++i)
+            if (const Json* value = json.find(kind.parameters[i].key))
+                node.values[i] = read_value(*value, kind.parameters[i], {&path, kind.parameters[i].key});
+        read_fields(json, path, node.transform, always);
+        if (const Json* children = json.find(format::children))
+            read_children(*children, {&path, format::children}, node);
+        return node;
+    }
+
+    void read_children(const Json& json, const JsonPath& path, Node& node) {
+        const auto* array = json.as<Json::Array>();
+        if (!array) unexpected(path, json, "an array of nodes");
+        node.children.reserve(array->size());
+        for (size_t i = 0; i < array->size(); ++i)
+            node.children.push_back(read_node((*array)[i], {&path, {}, static_cast<int>(i), &(*array)[i]}));
+    }
+
+    std::string read_node_name(const Json& node, const JsonPath& node_path) {
+        const Json* json = node.find(format::name);
+        if (!json) return {};
+        const JsonPath path{&node_path, format::name};
+        const auto* name = json->as<std::string>();
+        if (!name) unexpected(path, *json, "a text");
+        check_name(*name, path, json->line);
+        if (auto [first, fresh] = node_lines_.try_emplace(*name, json->line); !fresh)
+            fail(path, json->line,
+                 fmt::format("found {} again, expected a name of its own (the first is on line {})", description(*json),
+                             first->second));
+        return *name;
+    }
+
+    Id read_material_reference(const Json& node, const JsonPath& node_path) const {
+        const Json* json = node.find(format::material);
+        if (!json) return 0;
+        const JsonPath path{&node_path, format::material};
+        const auto* name = json->as<std::string>();
+        if (!name) unexpected(path, *json, "the name of a material");
+        if (auto found = material_ids_.find(*name); found != material_ids_.end()) return found->second;
+        Keys known;
+        for (const Material& material : scene_.materials) known.push_back(material.name);
+        if (known.size() > 20) known.resize(20);
+        fail(path, json->line,
+             fmt::format("there is no material {}, {}", description(*json), expected_one_of(known, *name)));
+    }
+
+    const std::string& file_;
+    Scene scene_;
+    std::unordered_map<std::string, Id> material_ids_;
+    std::unordered_map<std::string, int> node_lines_;  ///< names that are taken and where
+};
+
+}  // namespace
+
+Scene parse_scene(std::string_view text, const std::string& file) {
+    try {
+        const Json document = parse_json(text);
+        return Reader(file).read(document);
+    } catch (const JsonError& error) {
+        throw SceneFileError(file, error.line, error.path, error.what());
+    }
+}
+
+}  // namespace farfield

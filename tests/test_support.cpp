@@ -1,0 +1,117 @@
+#include "tests/test_support.h"
+
+#include "sdf/fields.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+#include <stdlib.h>
+
+namespace farfield {
+namespace fs = std::filesystem;
+namespace {
+
+/// Uniform in [0, 1). The standard's distributions differ between libraries; its generators do not.
+float uniform(std::mt19937& random) { return static_cast<float>(random() >> 8) * 0x1p-24f; }
+int below(std::mt19937& random, size_t count) { return static_cast<int>(random() % static_cast<unsigned>(count)); }
+
+template <class T>
+void randomise(T& object, std::mt19937& random) {
+    for (const Field<T>& field : fields<T>())
+        if (below(random, 3) != 0) field.set(object, random_value(field.parameter, random));
+}
+
+}  // namespace
+
+std::vector<fs::path> bundled_scenes() {
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(FARFIELD_SCENES))
+        if (entry.path().extension() == ".json") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+std::string read_text(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw std::runtime_error("cannot read " + file.string());
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write_text(const fs::path& file, std::string_view text) {
+    std::ofstream out(file, std::ios::binary);
+    out << text;
+    if (!out.flush()) throw std::runtime_error("cannot write " + file.string());
+}
+
+TemporaryFolder::TemporaryFolder() {
+    std::string name = (fs::temp_directory_path() / "farfield-test-XXXXXX").string();
+    if (!::mkdtemp(name.data())) throw std::runtime_error("cannot make a temporary folder");
+    path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+}
+
+glm::vec3 random_value(const Parameter& parameter, std::mt19937& random) {
+    glm::vec3 value = parameter.initial;
+    for (int i = 0; i < parameter.components(); ++i) {
+        if (parameter.is_whole())
+            value[i] += static_cast<float>(below(random, 7)) - 3.0f;
+        else if (parameter.unit == Unit::degrees || parameter.unit == Unit::degrees_per_metre)
+            value[i] += 90.0f * (uniform(random) - 0.5f);
+        else
+            value[i] =
+                value[i] * (0.5f + uniform(random)) + (value[i] == 0.0f ? 2.0f * (uniform(random) - 0.5f) : 0.0f);
+    }
+    return clamped(parameter, value);
+}
+
+Scene random_scene(unsigned seed, int nodes) {
+    std::mt19937 random(seed);
+    Scene scene;
+    randomise(scene.camera, random);
+    randomise(scene.settings, random);
+    randomise(scene.sky, random);
+    randomise(scene.materials.front(), random);
+    for (int i = below(random, 4); i > 0; --i) {
+        Material& material = scene.materials.emplace_back();
+        material.id = scene.new_id();
+        material.name = fmt::format("material {}", i);
+        randomise(material, random);
+    }
+    for (int i = below(random, 3); i >= 0; --i) {
+        Light& light = scene.lights.emplace_back();
+        light.id = scene.new_id();
+        light.name = fmt::format("light \"{}\"", i);
+        light.kind = i % 2 ? LightKind::directional : LightKind::point;
+        for (const Field<Light>& field : fields<Light>())
+            if (applies(light, field.parameter.key)) field.set(light, random_value(field.parameter, random));
+    }
+
+    // Each node joins one that is there already and takes children.
+    std::vector<Id> parents{scene.root.id};
+    for (int i = 1; i < nodes; ++i) {
+        Node node = make_node(node_kinds()[static_cast<size_t>(below(random, node_kinds().size()))].kind);
+        node.id = scene.new_id();
+        if (below(random, 2)) node.name = fmt::format("näme {}", i);
+        if (below(random, 3) == 0)
+            node.material = scene.materials[static_cast<size_t>(below(random, scene.materials.size()))].id;
+        for (size_t k = 0; k < node.values.size(); ++k)
+            node.values[k] = random_value(info(node.kind).parameters[k], random);
+        randomise(node.transform, random);
+        const Id id = node.id;
+        const bool takes_children = info(node.kind).takes_children();
+        find_node(scene, parents[static_cast<size_t>(below(random, parents.size()))])
+            ->children.push_back(std::move(node));
+        if (takes_children) parents.push_back(id);
+    }
+    return scene;
+}
+
+}  // namespace farfield

@@ -1,0 +1,42 @@
+// Helpers that tests share. Nothing here needs OpenGL.
+#pragma once
+
+#include "sdf/scene.h"
+
+#include <filesystem>
+#include <ostream>
+#include <random>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace farfield {
+
+/// The scene files in scenes/, sorted by name.
+std::vector<std::filesystem::path> bundled_scenes();
+
+std::string read_text(const std::filesystem::path& file);
+void write_text(const std::filesystem::path& file, std::string_view text);
+
+/// A folder for one test, removed with everything in it at the end.
+class TemporaryFolder {
+public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    std::filesystem::path operator/(std::string_view name) const { return path_ / name; }
+
+private:
+    std::filesystem::path path_;
+};
+
+/// A valid scene of `nodes` nodes (the root included), made from the tables: every kind, parameter, material and light
+/// kind occurs sooner or later. Equal seeds give equal scenes, on every machine. Values lie near their defaults, so
+/// that the shapes are of about a metre's size and stand a few metres around the origin.
+Scene random_scene(unsigned seed, int nodes = 20);
+
+/// A value that `parameter` takes, near its default.
+glm::vec3 random_value(const Parameter& parameter, std::mt19937& random);
+
+}  // namespace farfield
