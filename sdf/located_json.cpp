@@ -57,20 +57,20 @@ std::string printable(std::string_view text) {
     return dumped.substr(1, dumped.size() - 2);
 }
 
-/// "[json.exception.parse_error.101] parse error at line 3, column 5: syntax error while parsing value - invalid
-/// literal; last read: 'N'" without what our own message says anyway.
+/// nlohmann's message without what ours says anyway. "[json.exception.parse_error.101] parse error at line 3, column 5:
+/// syntax error while parsing object - unexpected ','; expected '}'" becomes "not valid JSON: unexpected ',', expected
+/// '}'".
 std::string syntax_problem(std::string_view message) {
-    for (std::string_view mark : {": syntax error while parsing ", ": ", "] "})
-        if (size_t at = message.find(mark); at != std::string_view::npos) {
-            message.remove_prefix(at + mark.size());
-            break;
-        }
-    if (message.starts_with("number overflow")) return "a number is too large, expected a finite number";
-    std::string problem = "not valid JSON: " + shortened(message, 200);
-    std::string clean;
-    for (char c : problem)
-        clean += static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7e ? '?' : c;
-    return clean;
+    if (message.find("number overflow") != std::string_view::npos)
+        return "a number is too large, expected a finite number";
+    if (size_t at = message.find(" - "); at != std::string_view::npos) message.remove_prefix(at + 3);
+    if (message.starts_with("invalid literal"))
+        return "not valid JSON: unknown word, expected a text, a finite number, true, false, an array or an object";
+    std::string text(message);
+    if (size_t at = text.find("; last read: "); at != std::string::npos)
+        text.resize(at);  // often a lot, with line ends
+    if (size_t at = text.find("; expected "); at != std::string::npos) text.replace(at, 1, ",");
+    return "not valid JSON: " + text;
 }
 
 /// Builds the tree from nlohmann's events. Pointers to open containers stay valid: a parent does not grow meanwhile.

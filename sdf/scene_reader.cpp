@@ -207,6 +207,9 @@ private:
         for (const JsonMember& member : object) {
             const JsonPath here{&path, member.key};
             check_name(member.key, here, member.line);
+            if (scene_.materials.size() == largest_material_count)
+                fail(here, member.line,
+                     fmt::format("is one material too many, expected at most {}", largest_material_count));
             object_in(member.value, here, "a material");
             Material& material = scene_.materials.emplace_back();
             material.id = scene_.new_id();

@@ -1,0 +1,293 @@
+// Scene files: round trips and safe saving. What is refused is tested in scene_error_test and scene_fuzz_test.
+#include "sdf/scene_file.h"
+
+#include "sdf/fields.h"
+#include "tests/test_support.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+namespace farfield {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(SceneFile, IdsAreUniqueAndNotZero) {
+    const Scene scene = parse_scene(to_text(random_scene(1, 50)), "a.json");
+    std::vector<Id> ids;
+    auto collect = [&](auto& self, const Node& node) -> void {
+        ids.push_back(node.id);
+        for (const Node& child : node.children) self(self, child);
+    };
+    collect(collect, scene.root);
+    for (const Material& material : scene.materials) ids.push_back(material.id);
+    for (const Light& light : scene.lights) ids.push_back(light.id);
+    std::sort(ids.begin(), ids.end());
+    EXPECT_EQ(std::adjacent_find(ids.begin(), ids.end()), ids.end());
+    EXPECT_GT(ids.front(), 0u);
+    EXPECT_LT(ids.back(), scene.next_id);
+}
+
+TEST(SceneFile, BundledScenesAreFixedPoints) {
+    ASSERT_GE(bundled_scenes().size(), 6u);
+    for (const fs::path& file : bundled_scenes()) {
+        SCOPED_TRACE(file);
+        EXPECT_EQ(to_text(load_scene(file)), read_text(file));
+    }
+}
+
+TEST(SceneFile, RandomScenesSurviveSavingAndLoading) {
+    for (unsigned seed = 0; seed < 200; ++seed) {
+        const Scene scene = random_scene(seed, 1 + static_cast<int>(seed % 60));
+        const std::string text = to_text(scene);
+        const Scene again = parse_scene(text, "a.json");
+        ASSERT_EQ(to_text(again), text) << "seed " << seed;
+        ASSERT_EQ(count_nodes(again.root), count_nodes(scene.root)) << "seed " << seed;
+    }
+}
+
+/// Every value, that is: the tables' own view of both scenes agrees bit for bit.
+TEST(SceneFile, EveryValueSurvivesSavingAndLoading) {
+    for (unsigned seed = 0; seed < 200; ++seed) {
+        const Scene before = random_scene(seed, 30);
+        const Scene after = parse_scene(to_text(before), "a.json");
+        auto compare = [&](ObjectRef a, ObjectRef b) {
+            const auto list = parameters(before, a);
+            ASSERT_EQ(list.size(), parameters(after, b).size());
+            for (const Parameter& parameter : list)
+                for (int i = 0; i < parameter.components(); ++i)
+                    ASSERT_EQ(value(before, a, parameter.key)[i], value(after, b, parameter.key)[i])
+                        << seed << parameter.key;
+        };
+        auto compare_nodes = [&](auto& self, const Node& a, const Node& b) -> void {
+            ASSERT_EQ(a.kind, b.kind);
+            ASSERT_EQ(a.name, b.name);
+            ASSERT_EQ(material_index(before, a.material, 99), material_index(after, b.material, 99));
+            compare({ObjectType::node, a.id}, {ObjectType::node, b.id});
+            ASSERT_EQ(a.children.size(), b.children.size());
+            for (size_t i = 0; i < a.children.size(); ++i) self(self, a.children[i], b.children[i]);
+        };
+        compare_nodes(compare_nodes, before.root, after.root);
+        ASSERT_EQ(before.materials.size(), after.materials.size());
+        for (size_t i = 0; i < before.materials.size(); ++i)
+            compare({ObjectType::material, before.materials[i].id}, {ObjectType::material, after.materials[i].id});
+        ASSERT_EQ(before.lights.size(), after.lights.size());
+        for (size_t i = 0; i < before.lights.size(); ++i)
+            compare({ObjectType::light, before.lights[i].id}, {ObjectType::light, after.lights[i].id});
+        for (ObjectType type : {ObjectType::sky, ObjectType::camera, ObjectType::settings})
+            compare({type, 0}, {type, 0});
+    }
+}
+
+TEST(SceneFile, FloatsAreWrittenShortAndExactly) {
+    Scene scene;
+    for (float x :
+         {0.1f, 1.0f / 3.0f, 123456.789f, 1e-20f, 999999.94f, -0.0f, std::numeric_limits<float>::denorm_min()}) {
+        scene.camera.position.x = x;
+        EXPECT_EQ(parse_scene(to_text(scene), "a.json").camera.position.x, x);
+    }
+    scene.camera.position = {0.1f, -0.0f, 1000.0f};
+    EXPECT_NE(to_text(scene).find("\"position\": [0.1, 0, 1000]"), std::string::npos) << to_text(scene);
+}
+
+TEST(SceneFile, DefaultsAreOmitted) {
+    EXPECT_EQ(to_text(Scene()), R"({
+  "farfield": 1,
+  "materials": {
+    "default": {}
+  },
+  "root": {
+    "kind": "union",
+    "name": "scene"
+  }
+}
+)");
+}
+
+TEST(SceneFile, AnEditOfOneNumberIsADifferenceOfOneLine) {
+    auto lines = [](const std::string& text) {
+        std::vector<std::string> list{""};
+        for (char c : text) c == '\n' ? list.emplace_back() : list.back() += c, void();
+        return list;
+    };
+    int compared = 0;
+    for (unsigned seed = 0; seed < 50; ++seed) {
+        Scene scene = random_scene(seed, 20);
+        std::mt19937 random(seed);
+        for (Id id = 1; id < scene.next_id; ++id) {
+            const ObjectRef object{ObjectType::node, id};
+            for (const Parameter& parameter : parameters(scene, object)) {
+                // Two values that are not the default, so that the line is there before and after.
+                auto other_value = [&](glm::vec3 taken) {
+                    for (int i = 0; i < 100; ++i)
+                        if (glm::vec3 v = random_value(parameter, random); v != parameter.initial && v != taken)
+                            return v;
+                    return taken;
+                };
+                const glm::vec3 first = other_value(parameter.initial), second = other_value(first);
+                if (first == second) continue;
+                set_value(scene, object, parameter.key, first);
+                const auto before = lines(to_text(scene));
+                set_value(scene, object, parameter.key, second);
+                const auto after = lines(to_text(scene));
+                ASSERT_EQ(before.size(), after.size());
+                int different = 0;
+                for (size_t i = 0; i < before.size(); ++i) different += before[i] != after[i];
+                ASSERT_EQ(different, 1) << parameter.key;
+                ++compared;
+            }
+        }
+    }
+    EXPECT_GT(compared, 1000);
+}
+
+TEST(SceneFile, KeysMayComeInAnyOrder) {
+    const Scene scene =
+        parse_scene(R"({"root": {"material": "m", "kind": "union"}, "materials": {"m": {}}, "farfield": 1})", "a");
+    EXPECT_EQ(scene.root.material, scene.materials.front().id);
+}
+
+TEST(SceneFile, NamesMayHoldAnyPrintableText) {
+    Scene scene;
+    for (const char* name : {"a\"b\\c", "tête-à-tête", "*/ // {}", " ", "光"}) {
+        scene.root.name = scene.materials.front().name = name;
+        const Scene again = parse_scene(to_text(scene), "a.json");
+        EXPECT_EQ(again.root.name, name);
+        EXPECT_EQ(again.materials.front().name, name);
+    }
+}
+
+// ---- files on disk
+// ---------------------------------------------------------------------------------------------------
+
+std::string load_problem(const fs::path& file) {
+    try {
+        load_scene(file);
+    } catch (const SceneFileError& error) {
+        EXPECT_EQ(error.file, file.string());
+        EXPECT_EQ(error.line, 0);
+        return error.problem;
+    }
+    return "";
+}
+
+std::string save_problem(const Scene& scene, const fs::path& file) {
+    try {
+        save_scene(scene, file);
+    } catch (const SceneFileError& error) {
+        return error.problem;
+    }
+    return "";
+}
+
+size_t entries(const fs::path& folder) {
+    return static_cast<size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+
+TEST(SceneFileOnDisk, WhatCannotBeReadIsAnError) {
+    TemporaryFolder folder;
+    EXPECT_EQ(load_problem(folder / "nothing.json"), "cannot be opened: No such file or directory");
+    EXPECT_EQ(load_problem(folder / ""), "is a folder, expected a scene file");
+    EXPECT_EQ(load_problem("/dev/zero"), "is too large, expected at most 8 MB");
+    fs::path large = folder / "large.json";
+    write_text(large, "");
+    fs::resize_file(large, 100'000'000);
+    EXPECT_EQ(load_problem(large), "is too large, expected at most 8 MB");
+}
+
+TEST(SceneFileOnDisk, SavedScenesLoad) {
+    TemporaryFolder folder;
+    const fs::path file = folder / "a.json";
+    const Scene scene = random_scene(7);
+    save_scene(scene, file);
+    EXPECT_EQ(read_text(file), to_text(scene));
+    save_scene(load_scene(file), file);
+    EXPECT_EQ(read_text(file), to_text(scene));
+    EXPECT_EQ(entries(folder / ""), 1u);
+}
+
+TEST(SceneFileOnDisk, PermissionsAreKept) {
+    TemporaryFolder folder;
+    const fs::path file = folder / "a.json";
+    write_text(file, "old");
+    ASSERT_EQ(::chmod(file.c_str(), 0640), 0);
+    save_scene(Scene(), file);
+    struct stat status {};
+    ASSERT_EQ(::stat(file.c_str(), &status), 0);
+    EXPECT_EQ(status.st_mode & 07777, 0640u);
+    EXPECT_EQ(read_text(file), to_text(Scene()));
+}
+
+TEST(SceneFileOnDisk, SymbolicLinksAreKept) {
+    TemporaryFolder folder;
+    fs::create_directory(folder / "real");
+    fs::create_symlink("real/a.json", folder / "link.json");
+    fs::create_symlink("link.json", folder / "link2.json");
+    save_scene(Scene(), folder / "link2.json");  // its end does not exist yet
+    save_scene(random_scene(1), folder / "link2.json");
+    EXPECT_TRUE(fs::is_symlink(folder / "link.json"));
+    EXPECT_TRUE(fs::is_symlink(folder / "link2.json"));
+    EXPECT_EQ(read_text(folder / "real/a.json"), to_text(random_scene(1)));
+}
+
+TEST(SceneFileOnDisk, TheOldFileSurvivesFailures) {
+    TemporaryFolder folder;
+    const fs::path file = folder / "a.json";
+    write_text(file, "old");
+    Scene broken;
+    broken.camera.field_of_view = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_NE(save_problem(broken, file), "");
+    EXPECT_EQ(read_text(file), "old");
+
+    EXPECT_EQ(save_problem(Scene(), folder / ""), "is not a regular file, expected a scene file");
+    EXPECT_EQ(save_problem(Scene(), folder / "no/such/folder.json"), "cannot be written: No such file or directory");
+    EXPECT_EQ(save_problem(Scene(), file / "inside.json"), "cannot be written: Not a directory");
+    EXPECT_EQ(entries(folder / ""), 1u);
+}
+
+TEST(SceneFileOnDisk, ReadOnlyFolderAndFile) {
+    if (::geteuid() == 0) {
+        // Root may write anywhere but in the kernel's own folders.
+        EXPECT_NE(save_problem(Scene(), "/proc/farfield.json"), "");
+        return;
+    }
+    TemporaryFolder folder;
+    const fs::path file = folder / "a.json";
+    write_text(file, "old");
+    fs::permissions(folder / "", fs::perms::owner_read | fs::perms::owner_exec);
+    EXPECT_EQ(save_problem(Scene(), file), "cannot be written: Permission denied");
+    fs::permissions(folder / "", fs::perms::owner_all);
+    fs::permissions(file, fs::perms::owner_read);
+    EXPECT_EQ(save_problem(Scene(), file), "cannot be written: Permission denied");
+    EXPECT_EQ(read_text(file), "old");
+    EXPECT_EQ(entries(folder / ""), 1u);
+}
+
+TEST(SceneFileOnDisk, AFullDiskLeavesTheOldFile) {
+    // A limit on file size makes writing fail in the middle, as a full disk does. In a child, as the limit stays.
+    TemporaryFolder folder;
+    const fs::path file = folder / "a.json";
+    write_text(file, "old");
+    EXPECT_EXIT(
+        {
+            ::signal(SIGXFSZ, SIG_IGN);
+            rlimit limit;
+            limit.rlim_cur = limit.rlim_max = 100;
+            ::setrlimit(RLIMIT_FSIZE, &limit);
+            ::_exit(save_problem(Scene(), file) == "cannot be written: File too large" ? 0 : 1);
+        },
+        testing::ExitedWithCode(0), "");
+    EXPECT_EQ(read_text(file), "old");
+    EXPECT_EQ(entries(folder / ""), 1u);
+}
+
+}  // namespace
+}  // namespace farfield
