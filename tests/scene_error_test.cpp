@@ -99,6 +99,13 @@ TEST(SceneFileError, Syntax) {
                  "not valid JSON: unexpected end of input, expected '}'");
 }
 
+TEST(SceneFileError, LinesAreCountedAlikeWithAnyLineEnd) {
+    std::string text = "\xef\xbb\xbf";  // byte-order mark
+    for (char c : replaced(small, "0.5", "-1")) text += c == '\n' ? "\r\n" : std::string(1, c);
+    expect_error(text, 19, "root/children[0] \"ball\"/radius",
+                 "found -1, expected a number at least 0 (and at most 1e+06)");
+}
+
 TEST(SceneFileError, NotANumber) {
     for (const char* text : {"NaN", "nan", "Infinity", "-Infinity"}) {
         SCOPED_TRACE(text);
