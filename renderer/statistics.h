@@ -22,7 +22,8 @@ struct Statistics {
     int specialisations = 0;          ///< programs made with literals once the hand rested
     double compile_milliseconds = 0.0;  ///< of the last program
     bool specialised = false;           ///< the picture comes from the program with literals
-    std::uint64_t rays = 0;             ///< traced in the last frame
+    std::uint64_t rays = 0;             ///< traced in the last frame, where they are counted (FrameOptions)
+    std::uint64_t evaluations = 0;     ///< of the distance by these rays' marches
     std::uint64_t exhausted_rays = 0;   ///< of these, stopped by the step limit
     std::string device;                 ///< what OpenGL calls the renderer
 };

@@ -1,0 +1,145 @@
+#include "app/commands.h"
+
+#include "app/progress.h"
+#include "renderer/renderer.h"
+#include "sdf/codegen.h"
+#include "sdf/fields.h"
+#include "sdf/scene_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <ctime>
+#include <numeric>
+
+namespace farfield {
+namespace {
+
+bool is_exr(const std::filesystem::path& file) { return file.extension() == ".exr"; }
+
+void write_outputs(Renderer& renderer, const std::vector<std::filesystem::path>& outputs, View view) {
+    for (const std::filesystem::path& file : outputs) {
+        if (is_exr(file)) {
+            std::vector<Layer> layers{{"", renderer.read(view)}};
+            for (const ViewInfo& info : views()) layers.push_back({info.key, renderer.read(info.view)});
+            write_exr(file, layers);
+        } else {
+            write_display(file, renderer.size(), renderer.display_pixels());
+        }
+    }
+}
+
+double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+double median(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const std::size_t half = values.size() / 2;
+    return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+}  // namespace
+
+void Overrides::apply(Settings& settings) const {
+    for (const auto& [key, text] : values) {
+        for (const Field<Settings>& field : fields<Settings>()) {
+            if (key != field.parameter.key) continue;
+            glm::vec3 value{0.0f};
+            bool read = false;
+            if (field.parameter.type == ParameterType::choice) {
+                for (std::size_t i = 0; i < field.parameter.choices.size(); ++i)
+                    if (text == field.parameter.choices[i]) value.x = static_cast<float>(i), read = true;
+            } else {
+                const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value.x);
+                read = error == std::errc() && end == text.data() + text.size() &&
+                       why_refused(field.parameter, value).empty();
+            }
+            if (!read)
+                throw std::invalid_argument(fmt::format("{}: \"{}\" given, expected {}", key, text, expectation(field.parameter)));
+            field.set(settings, value);
+        }
+    }
+}
+
+int run_render(const RenderOptions& options) {
+    Scene scene = load_scene(options.scene);
+    options.overrides.apply(scene.settings);
+    const auto context = make_headless_context(options.context);
+    context->make_current();
+    Renderer renderer;
+    FrameOptions frame;
+    frame.size = options.size;
+    frame.view = options.view;
+    frame.seed = options.seed;
+    renderer.update(scene, frame);
+    Progress progress("rendering", options.frames);
+    for (int i = 0; i < options.frames; ++i) {
+        do {
+            if (Progress::interrupted()) {
+                fmt::print(stderr, "\ninterrupted: nothing was written\n");
+                return 1;
+            }
+        } while (!renderer.step());
+        progress.advance();
+    }
+    write_outputs(renderer, options.outputs, options.view);
+    return 0;
+}
+
+int run_glsl(const GlslOptions& options) {
+    fmt::print("{}", generate(load_scene(options.scene), options.live ? Tier::live : Tier::specialised).text);
+    return 0;
+}
+
+int run_check(const std::filesystem::path& file) {
+    const Scene scene = load_scene(file);
+    fmt::print("{}: {} nodes, {} materials, {} lights\n", file.string(), count_nodes(scene.root), scene.materials.size(),
+               scene.lights.size());
+    return 0;
+}
+
+int run_bench(const BenchOptions& options) {
+    Scene scene = load_scene(options.scene);
+    options.overrides.apply(scene.settings);
+    const auto context = make_headless_context(options.context);
+    context->make_current();
+    Renderer renderer;
+    FrameOptions frame;
+    frame.size = options.size;
+    fmt::print("scene     {}, {} nodes\ndevice    {} ({})\npicture   {} x {}, {} samples per frame, {} bounces\n",
+               options.scene.string(), count_nodes(scene.root), renderer.statistics().device, context->name(),
+               options.size.x, options.size.y, scene.settings.samples, scene.settings.bounces);
+
+    for (const Tier tier : {Tier::live, Tier::specialised}) {
+        const char* name = tier == Tier::live ? "live" : "specialised";
+        frame.tier = tier;
+        frame.counting = false;
+        renderer.update(scene, frame);
+        fmt::print("\n{} program: compiled in {:.0f} ms\n", name, renderer.statistics().compile_milliseconds);
+        renderer.render_frame();
+        std::vector<double> cpu, wall;
+        std::vector<PassTime> passes;
+        for (int i = 0; i < options.frames; ++i) {
+            const double cpu_start = cpu_seconds();
+            const auto wall_start = std::chrono::steady_clock::now();
+            renderer.render_frame();
+            cpu.push_back(cpu_seconds() - cpu_start);
+            wall.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count());
+            passes = renderer.statistics().passes;
+        }
+        fmt::print("  frame              {:8.1f} ms   {:.2f} frames/s, process CPU time {:.1f} ms (medians of {})\n",
+                   1e3 * median(wall), 1.0 / median(wall), 1e3 * median(cpu), options.frames);
+        for (const PassTime& pass : passes) fmt::print("  {:<18} {:8.1f} ms\n", pass.name, pass.milliseconds);
+        frame.counting = true;
+        renderer.update(scene, frame);
+        renderer.render_frame();
+        const Statistics& s = renderer.statistics();
+        fmt::print("  rays               {:8}      {:.1f} evaluations per ray, {} stopped by the step limit\n", s.rays,
+                   static_cast<double>(s.evaluations) / static_cast<double>(std::max<std::uint64_t>(s.rays, 1)),
+                   s.exhausted_rays);
+    }
+    return 0;
+}
+
+}  // namespace farfield

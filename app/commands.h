@@ -1,0 +1,54 @@
+// The offline commands of the command line; each returns the exit status: 0 done, 1 failed while running, 2 wrong input.
+#pragma once
+
+#include "renderer/context.h"
+#include "renderer/views.h"
+#include "sdf/scene.h"
+
+#include <glm/vec2.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace farfield {
+
+/// Settings given on the command line; those not given are the scene's own.
+struct Overrides {
+    std::vector<std::pair<std::string, std::string>> values;  ///< key and text, as of the settings table
+    /// Throws std::invalid_argument that names the option and what it takes.
+    void apply(Settings& settings) const;
+};
+
+struct RenderOptions {
+    std::filesystem::path scene;
+    std::vector<std::filesystem::path> outputs;
+    glm::ivec2 size{768, 512};
+    int frames = 16;
+    std::uint32_t seed = 0;
+    View view = View::result;
+    ContextKind context = ContextKind::automatic;
+    Overrides overrides;
+};
+int run_render(const RenderOptions& options);
+
+struct GlslOptions {
+    std::filesystem::path scene;
+    bool live = false;
+};
+int run_glsl(const GlslOptions& options);
+
+struct BenchOptions {
+    std::filesystem::path scene;
+    glm::ivec2 size{512, 512};
+    int frames = 5;  ///< measured, after one that is not
+    ContextKind context = ContextKind::automatic;
+    Overrides overrides;
+};
+int run_bench(const BenchOptions& options);
+
+int run_check(const std::filesystem::path& scene);
+
+}  // namespace farfield

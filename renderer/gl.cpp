@@ -1,0 +1,139 @@
+#include "renderer/gl.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cassert>
+#include <vector>
+
+namespace farfield {
+
+std::string_view embedded_shader(std::string_view name);  // generated from shaders/*.glsl by embed.cmake
+
+namespace gl {
+
+void Buffer::resize(std::size_t bytes) {
+    bytes = std::max<std::size_t>(bytes, 16);  // a binding needs some storage
+    if (bytes == size_) return;
+    GLuint name = 0;
+    glGenBuffers(1, &name);
+    handle_ = Handle<BufferTraits>(name);
+    glBindBuffer(GL_SHADER_STORAGE_BUFFER, name);
+    glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_COPY);
+    glObjectLabel(GL_BUFFER, name, -1, label_.c_str());
+    if (glGetError() == GL_OUT_OF_MEMORY)
+        throw std::runtime_error(fmt::format("not enough memory for buffer \"{}\" of {} bytes", label_, bytes));
+    size_ = bytes;
+}
+
+void Buffer::clear() {
+    glBindBuffer(GL_SHADER_STORAGE_BUFFER, handle_.name());
+    glClearBufferData(GL_SHADER_STORAGE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+}
+
+void Buffer::upload(const void* data, std::size_t bytes) {
+    resize(bytes);
+    glBindBuffer(GL_SHADER_STORAGE_BUFFER, handle_.name());
+    if (bytes > 0) glBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(bytes), data);
+}
+
+void Buffer::read(void* data, std::size_t bytes, std::size_t offset) const {
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glBindBuffer(GL_SHADER_STORAGE_BUFFER, handle_.name());
+    glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
+}
+
+Texture::Texture(const std::string& label, GLenum format, glm::ivec2 size, int levels)
+    : format_(format), size_(size), levels_(levels) {
+    GLuint name = 0;
+    glGenTextures(1, &name);
+    handle_ = Handle<TextureTraits>(name);
+    glBindTexture(GL_TEXTURE_2D, name);
+    glTexStorage2D(GL_TEXTURE_2D, levels, format, size.x, size.y);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, levels > 1 ? GL_LINEAR_MIPMAP_NEAREST : GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glObjectLabel(GL_TEXTURE, name, -1, label.c_str());
+    if (glGetError() != GL_NO_ERROR)
+        throw std::runtime_error(fmt::format("cannot make texture \"{}\" of {} x {}", label, size.x, size.y));
+}
+
+void Texture::bind(GLuint unit) const {
+    glActiveTexture(GL_TEXTURE0 + unit);
+    glBindTexture(GL_TEXTURE_2D, name());
+}
+
+void Texture::bind_image(GLuint unit, GLenum access, int level) const {
+    glBindImageTexture(unit, name(), level, GL_FALSE, 0, access, format_);
+}
+
+namespace {
+
+template <class GetLength, class GetLog>
+std::string driver_log(GLuint object, GetLength get_length, GetLog get_log) {
+    GLint length = 0;
+    get_length(object, GL_INFO_LOG_LENGTH, &length);
+    std::vector<char> log(static_cast<std::size_t>(std::max(length, 1)));
+    get_log(object, length, nullptr, log.data());
+    return std::string(log.data());
+}
+
+}  // namespace
+
+Program::Program(std::string label, std::string_view source) : label_(std::move(label)) {
+    const GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
+    const char* text = source.data();
+    const GLint length = static_cast<GLint>(source.size());
+    glShaderSource(shader, 1, &text, &length);
+    glCompileShader(shader);
+    GLint ok = GL_FALSE;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+    if (!ok) {
+        const std::string log = driver_log(shader, glGetShaderiv, glGetShaderInfoLog);
+        glDeleteShader(shader);
+        throw ShaderError(fmt::format("{} does not compile:\n{}", label_, log));
+    }
+    handle_ = Handle<ProgramTraits>(glCreateProgram());
+    glAttachShader(handle_.name(), shader);
+    glLinkProgram(handle_.name());
+    glDetachShader(handle_.name(), shader);
+    glDeleteShader(shader);
+    glGetProgramiv(handle_.name(), GL_LINK_STATUS, &ok);
+    if (!ok)
+        throw ShaderError(fmt::format("{} does not link:\n{}", label_,
+                                      driver_log(handle_.name(), glGetProgramiv, glGetProgramInfoLog)));
+    glObjectLabel(GL_PROGRAM, handle_.name(), -1, label_.c_str());
+}
+
+GLint Program::location(const char* name) const {
+    const GLint found = glGetUniformLocation(handle_.name(), name);
+    assert(found >= 0 && "the program has no such uniform");
+    return found;
+}
+
+void Program::run(std::size_t count) const {
+    if (count == 0) return;
+    use();
+    glDispatchCompute(static_cast<GLuint>((count + 63) / 64), 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void Program::run(glm::ivec2 size) const {
+    use();
+    glDispatchCompute(static_cast<GLuint>((size.x + 7) / 8), static_cast<GLuint>((size.y + 7) / 8), 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+}  // namespace gl
+
+std::string shader_source(std::string_view name) {
+    const std::string_view text = embedded_shader(name);
+    if (text.empty()) throw std::logic_error(fmt::format("no shader {} is built in", name));
+    // A number, not a name, is what core GLSL takes as the file: 1 is common.glsl, 0 the pass's own.
+    return fmt::format("#version 430 core\n#line 1 1\n{}\n#line 1 0\n{}", embedded_shader("common.glsl"), text);
+}
+
+gl::Program load_program(std::string_view name) { return gl::Program(std::string(name), shader_source(name)); }
+
+}  // namespace farfield

@@ -1,0 +1,135 @@
+// OpenGL objects as move-only values with debug labels. Made, used and destroyed with a context current; a failure throws.
+#pragma once
+
+#include <glad/gl.h>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <cstddef>
+#include <map>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace farfield {
+
+struct ShaderError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+namespace gl {
+
+/// Owns the name of one object; Traits::destroy gives it back.
+template <class Traits>
+class Handle {
+public:
+    Handle() = default;
+    explicit Handle(GLuint name) : name_(name) {}
+    Handle(Handle&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+    Handle& operator=(Handle&& other) noexcept {
+        std::swap(name_, other.name_);
+        return *this;
+    }
+    ~Handle() {
+        if (name_) Traits::destroy(name_);
+    }
+    GLuint name() const { return name_; }
+    explicit operator bool() const { return name_ != 0; }
+
+private:
+    GLuint name_ = 0;
+};
+
+struct BufferTraits {
+    static void destroy(GLuint name) { glDeleteBuffers(1, &name); }
+};
+struct TextureTraits {
+    static void destroy(GLuint name) { glDeleteTextures(1, &name); }
+};
+struct ProgramTraits {
+    static void destroy(GLuint name) { glDeleteProgram(name); }
+};
+struct QueryTraits {
+    static void destroy(GLuint name) { glDeleteQueries(1, &name); }
+};
+
+/// Storage or uniform buffer.
+class Buffer {
+public:
+    explicit Buffer(std::string label) : label_(std::move(label)) {}
+    void resize(std::size_t bytes);  ///< keeps nothing; does nothing when it has that size
+    void clear();                    ///< all bytes 0
+    void upload(const void* data, std::size_t bytes);  ///< resizes
+    template <class T>
+    void upload(std::span<const T> items) {
+        upload(items.data(), items.size_bytes());
+    }
+    void read(void* data, std::size_t bytes, std::size_t offset = 0) const;
+    void bind_storage(GLuint binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, handle_.name()); }
+    void bind_uniform(GLuint binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, handle_.name()); }
+    std::size_t size() const { return size_; }
+
+private:
+    std::string label_;
+    Handle<BufferTraits> handle_;
+    std::size_t size_ = 0;
+};
+
+/// Two-dimensional texture with immutable storage.
+class Texture {
+public:
+    Texture() = default;
+    Texture(const std::string& label, GLenum format, glm::ivec2 size, int levels = 1);
+    GLuint name() const { return handle_.name(); }
+    glm::ivec2 size() const { return size_; }
+    int levels() const { return levels_; }
+    GLenum format() const { return format_; }
+    void bind(GLuint unit) const;
+    void bind_image(GLuint unit, GLenum access, int level = 0) const;
+    explicit operator bool() const { return static_cast<bool>(handle_); }
+
+private:
+    Handle<TextureTraits> handle_;
+    GLenum format_ = 0;
+    glm::ivec2 size_{0};
+    int levels_ = 0;
+};
+
+/// A compute program. Uniforms are set by name; a name that the program does not use is an error in the pass that sets it.
+class Program {
+public:
+    Program() = default;
+    /// Throws ShaderError with the driver's log. `label` names it in messages and debuggers.
+    Program(std::string label, std::string_view source);
+    void use() const { glUseProgram(handle_.name()); }
+    void set(const char* name, int v) const { glProgramUniform1i(handle_.name(), location(name), v); }
+    void set(const char* name, unsigned v) const { glProgramUniform1ui(handle_.name(), location(name), v); }
+    void set(const char* name, float v) const { glProgramUniform1f(handle_.name(), location(name), v); }
+    void set(const char* name, glm::ivec2 v) const { glProgramUniform2i(handle_.name(), location(name), v.x, v.y); }
+    /// Runs at least `count` invocations in groups of 64x1 and makes their writes visible to what follows.
+    void run(std::size_t count) const;
+    /// The same over a grid in groups of 8x8.
+    void run(glm::ivec2 size) const;
+    GLuint name() const { return handle_.name(); }
+    explicit operator bool() const { return static_cast<bool>(handle_); }
+
+private:
+    GLint location(const char* name) const;
+    std::string label_;
+    Handle<ProgramTraits> handle_;
+};
+
+}  // namespace gl
+
+/// The text of renderer/shaders/NAME with the #version line and shaders/common.glsl in front and #line directives so that
+/// messages name the file.
+std::string shader_source(std::string_view name);
+/// shader_source compiled.
+gl::Program load_program(std::string_view name);
+
+}  // namespace farfield

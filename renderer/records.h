@@ -1,0 +1,60 @@
+// The C++ side of the records and bindings of shaders/common.glsl; a test compares the layouts with the driver's.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+
+namespace farfield {
+
+struct FrameRecord {
+    glm::vec3 camera_position;
+    float pixel_angle;
+    glm::vec3 camera_right;
+    float jitter_x;
+    glm::vec3 camera_up;
+    float jitter_y;
+    glm::vec3 camera_forward;
+    std::uint32_t seed;
+    glm::vec3 sky_horizon;
+    std::int32_t light_count;
+    glm::vec3 sky_zenith;
+    float unused;
+    glm::ivec2 image_size;
+    glm::ivec2 padding;
+};
+static_assert(sizeof(FrameRecord) == 112);
+
+struct MaterialRecord {
+    glm::vec3 albedo;
+    float specular;
+    glm::vec3 emission;
+    float exponent;
+    friend bool operator==(const MaterialRecord&, const MaterialRecord&) = default;
+};
+static_assert(sizeof(MaterialRecord) == 32);
+
+struct LightRecord {
+    glm::vec3 position;
+    std::uint32_t directional;
+    glm::vec3 intensity;
+    float unused;
+    friend bool operator==(const LightRecord&, const LightRecord&) = default;
+};
+static_assert(sizeof(LightRecord) == 32);
+
+struct CounterRecord {
+    std::uint32_t rays = 0, steps = 0, exhausted_rays = 0, unused = 0;
+};
+
+inline constexpr std::size_t ray_bytes = 32, hit_bytes = 16, surface_bytes = 32, path_bytes = 32, sum_bytes = 16;
+
+/// Binding points of storage buffers.
+namespace binding {
+inline constexpr unsigned rays = 0, hits = 1, surfaces = 2, paths = 3, materials = 4, lights = 5, direct = 6, geometry = 7,
+                          reflectance = 8, far_light = 9, indirect = 10, occlusion = 11, counters = 12, parameters = 13;
+}
+
+}  // namespace farfield

@@ -1,0 +1,245 @@
+#include "renderer/renderer.h"
+
+#include "renderer/records.h"
+
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <cmath>
+
+namespace farfield {
+namespace {
+
+template <class T>
+void append_bytes(std::string& bytes, const T& value) {
+    bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+/// A low-discrepancy point of the unit square for frame n (Halton, bases 2 and 3); the pixel's centre for frame 0.
+glm::vec2 pixel_offset(int n) {
+    const auto radical_inverse = [](int i, int base) {
+        double result = 0.0, digit = 1.0 / base;
+        for (; i > 0; i /= base, digit /= base) result += digit * (i % base);
+        return static_cast<float>(result);
+    };
+    return n == 0 ? glm::vec2(0.0f) : glm::vec2(radical_inverse(n, 2), radical_inverse(n, 3)) - 0.5f;
+}
+
+/// Camera, sky and size as the kernels take them.
+FrameRecord frame_record(const Scene& scene, const FrameOptions& options, int frame) {
+    const Camera& camera = scene.camera;
+    glm::vec3 forward = camera.target - camera.position;
+    forward = glm::length(forward) > 0.0f ? glm::normalize(forward) : glm::vec3(0.0f, 0.0f, -1.0f);
+    glm::vec3 right = glm::cross(forward, glm::vec3(0.0f, 1.0f, 0.0f));
+    right = glm::length(right) > 1e-6f ? glm::normalize(right) : glm::vec3(1.0f, 0.0f, 0.0f);
+    const float half_height = std::tan(0.5f * glm::radians(camera.field_of_view));
+    const float aspect = static_cast<float>(options.size.x) / static_cast<float>(options.size.y);
+    const glm::vec2 offset = pixel_offset(frame);
+    FrameRecord record{};
+    record.camera_position = camera.position;
+    record.pixel_angle = 2.0f * half_height / static_cast<float>(options.size.y);
+    record.camera_right = right * (half_height * aspect);
+    record.jitter_x = offset.x;
+    record.camera_up = glm::cross(right, forward) * half_height;
+    record.jitter_y = offset.y;
+    record.camera_forward = forward;
+    record.seed = options.seed;
+    record.sky_horizon = scene.sky.horizon;
+    record.light_count = static_cast<int>(scene.lights.size());
+    record.sky_zenith = scene.sky.zenith;
+    record.image_size = options.size;
+    return record;
+}
+
+std::vector<MaterialRecord> material_records(const Scene& scene) {
+    std::vector<MaterialRecord> records;
+    for (const Material& m : scene.materials) records.push_back({m.albedo, m.specular, m.emission, m.exponent});
+    return records;
+}
+
+std::vector<LightRecord> light_records(const Scene& scene) {
+    std::vector<LightRecord> records;
+    for (const Light& light : scene.lights) {
+        const bool directional = light.kind == LightKind::directional;
+        const float length = glm::length(light.direction);
+        const glm::vec3 direction = length > 0.0f ? light.direction / length : glm::vec3(0.0f, -1.0f, 0.0f);
+        records.push_back({directional ? direction : light.position, directional ? 1u : 0u, light.intensity, 0.0f});
+    }
+    return records;
+}
+
+/// Everything that accumulated samples depend on, as bytes to compare: geometry (the live code and its parameters),
+/// materials, lights, sky, camera, size, seed, bounces.
+std::string transport_bytes(const Scene& scene, const FrameOptions& options) {
+    const GeneratedScene generated = generate(scene, Tier::live);
+    std::string bytes = generated.key;
+    for (const float value : generated.parameters) append_bytes(bytes, value);
+    for (const MaterialRecord& record : material_records(scene)) append_bytes(bytes, record);
+    for (const LightRecord& record : light_records(scene)) append_bytes(bytes, record);
+    append_bytes(bytes, frame_record(scene, options, 0));
+    append_bytes(bytes, scene.settings.bounces);
+    return bytes;
+}
+
+}  // namespace
+
+Renderer::Renderer() {
+    counters_.resize(sizeof(CounterRecord));
+    statistics_.device = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+}
+
+bool Renderer::update(const Scene& scene, const FrameOptions& options) {
+    programs_.select(scene, options.tier);  // may throw; nothing has changed until here
+    statistics_.structural_compiles = programs_.compiled(Tier::live);
+    statistics_.specialisations = programs_.compiled(Tier::specialised);
+    statistics_.compile_milliseconds = programs_.last_compile_milliseconds();
+    statistics_.specialised = options.tier == Tier::specialised;
+
+    std::string transport = transport_bytes(scene, options);
+    const bool changed = transport != transport_;
+    const bool new_occlusion = scene.settings.ao_radius != scene_.settings.ao_radius;
+    scene_ = scene;
+    options_ = options;
+    transport_ = std::move(transport);
+    if (!targets_ || targets_->size != options.size) {
+        targets_.reset();  // frees before it takes
+        targets_.emplace(options.size);
+    }
+    if (changed) {
+        const std::vector<MaterialRecord> materials = material_records(scene);
+        const std::vector<LightRecord> lights = light_records(scene);
+        materials_.upload(std::span(materials));
+        lights_.upload(std::span(lights));
+        discard();
+    } else if (new_occlusion) {
+        targets_->occlusion.clear();
+        occlusion_samples_ = 0;
+    }
+    return changed;
+}
+
+void Renderer::discard() {
+    targets_->clear();
+    in_frame_ = false;
+    completed_cameras_ = 0;
+    far_samples_ = 0;
+    occlusion_samples_ = 0;
+    statistics_.frames = 0;
+    statistics_.samples = 0;
+}
+
+std::size_t Renderer::batches() const { return (targets_->pixels() + Batch::capacity - 1) / Batch::capacity; }
+
+Work Renderer::work(std::size_t batch) const {
+    const std::size_t first = batch * Batch::capacity;
+    return {programs_, *targets_, batch_, first, std::min(Batch::capacity, targets_->pixels() - first),
+            static_cast<int>(scene_.lights.size()), options_.counting};
+}
+
+void Renderer::begin_frame() {
+    in_frame_ = true;
+    batch_index_ = 0;
+    sample_ = -1;
+    frame_samples_ = scene_.settings.samples;
+    frame_start_ = std::chrono::steady_clock::now();
+    timers_.begin_frame();
+    const FrameRecord record = frame_record(scene_, options_, completed_cameras_);
+    frame_.upload(&record, sizeof record);
+    const CounterRecord zero;
+    counters_.upload(&zero, sizeof zero);
+}
+
+bool Renderer::step() {
+    if (!in_frame_) begin_frame();
+    frame_.bind_uniform(0);
+    targets_->bind();
+    batch_.bind();
+    materials_.bind_storage(binding::materials);
+    lights_.bind_storage(binding::lights);
+    counters_.bind_storage(binding::counters);
+    const Work w = work(batch_index_);
+    if (sample_ < 0) {
+        {
+            Timers::Scope scope(timers_, "camera rays");
+            camera_pass_.run(w);
+        }
+        Timers::Scope scope(timers_, "direct light");
+        direct_pass_.run(w);
+    } else {
+        {
+            Timers::Scope scope(timers_, "far light");
+            far_light_pass_.run(w, far_samples_, scene_.settings.bounces);
+        }
+        Timers::Scope scope(timers_, "ambient occlusion");
+        occlusion_pass_.run(w, occlusion_samples_, scene_.settings.ao_radius);
+    }
+    if (++batch_index_ < batches()) return false;
+    batch_index_ = 0;
+    if (sample_ < 0) {
+        ++completed_cameras_;
+    } else {
+        ++far_samples_;
+        ++occlusion_samples_;
+        statistics_.samples = static_cast<int>(far_samples_);
+    }
+    if (++sample_ < frame_samples_) return false;
+    finish_frame();
+    return true;
+}
+
+void Renderer::finish_frame() {
+    in_frame_ = false;
+    statistics_.frames = completed_cameras_;
+    CounterRecord counters;
+    if (options_.counting) counters_.read(&counters, sizeof counters);
+    statistics_.rays = counters.rays;
+    statistics_.evaluations = counters.steps;
+    statistics_.exhausted_rays = counters.exhausted_rays;
+    statistics_.passes = timers_.collect();
+    const auto elapsed = std::chrono::steady_clock::now() - frame_start_;
+    statistics_.frame_milliseconds = std::chrono::duration<double, std::milli>(elapsed).count();
+}
+
+bool Renderer::displayable() const {
+    const bool mixed = in_frame_ && sample_ < 0 && batch_index_ > 0;  // some pixels have one camera sample more
+    return far_samples_ > 0 && !mixed;
+}
+
+void Renderer::render_frame() {
+    while (!step()) {}
+}
+
+void Renderer::synthesise(View view) {
+    frame_.bind_uniform(0);
+    targets_->bind();
+    const gl::Texture& filtered = filter_pass_.run(*targets_, scene_.settings.blur_levels);
+    synthesis_pass_.run(*targets_, filtered, static_cast<int>(view), scene_.settings.method, completed_cameras_);
+}
+
+void Renderer::display(const gl::Texture& output) {
+    synthesise(options_.view);
+    display_pass_.run(*targets_, output, static_cast<int>(options_.view), scene_.settings.exposure);
+}
+
+std::vector<unsigned char> Renderer::display_pixels() {
+    const gl::Texture output("display", GL_RGBA8, options_.size);
+    display(output);
+    std::vector<unsigned char> rgb(targets_->pixels() * 3);
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    output.bind(0);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+    return rgb;
+}
+
+Image Renderer::read(View view) {
+    synthesise(view);
+    Image image{options_.size, std::vector<float>(targets_->pixels() * 3)};
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    targets_->view.bind(0);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGB, GL_FLOAT, image.pixels.data());
+    return image;
+}
+
+}  // namespace farfield

@@ -1,0 +1,91 @@
+// Scene and settings to picture, progressively: every frame adds samples to the accumulators until the scene, the camera
+// or the light transport changes. Blur levels, exposure, view and method never discard what was accumulated; another AO radius
+// discards the ambient occlusion alone, because the far light does not depend on it.
+//
+// Work comes in bounded steps, so that a caller can drop it as soon as an edit makes it stale.
+#pragma once
+
+#include "renderer/image.h"
+#include "renderer/passes.h"
+#include "renderer/statistics.h"
+#include "renderer/timers.h"
+#include "renderer/views.h"
+#include "sdf/scene.h"
+
+#include <chrono>
+#include <memory>
+#include <optional>
+
+namespace farfield {
+
+struct FrameOptions {
+    glm::ivec2 size{512, 512};
+    View view = View::result;
+    std::uint32_t seed = 0;
+    Tier tier = Tier::specialised;  ///< live: no parameter edit needs a new program
+    bool counting = false;          ///< count rays and evaluations; costs a little
+};
+
+class Renderer {
+public:
+    /// Needs a current context, as does every call.
+    Renderer();
+
+    /// Takes over the scene and options, decides what stays valid and compiles where the structure is new. Throws ShaderError and
+    /// goes on with the last good scene. True when accumulated samples were discarded.
+    bool update(const Scene& scene, const FrameOptions& options);
+    /// Whether `update` with this scene and tier would have to compile.
+    bool needs_compile(const Scene& scene, Tier tier) const { return !programs_.has(scene, tier); }
+
+    /// One bounded piece of the current frame. True when that finished the frame.
+    bool step();
+    /// Whether there is something to show: the whole picture has direct light and a sample of far light.
+    bool displayable() const;
+    void render_frame();
+
+    /// The current view in 8 bits, into a texture of the picture's size.
+    void display(const gl::Texture& output);
+    std::vector<unsigned char> display_pixels();  ///< RGB, row 0 at the top
+    Image read(View view);                        ///< linear
+
+    const Statistics& statistics() const { return statistics_; }
+    glm::ivec2 size() const { return options_.size; }
+
+private:
+    void discard();
+    void begin_frame();
+    void finish_frame();
+    void synthesise(View view);
+    Work work(std::size_t batch) const;
+    std::size_t batches() const;
+
+    TracePrograms programs_;
+    CameraPass camera_pass_;
+    DirectPass direct_pass_;
+    FarLightPass far_light_pass_;
+    OcclusionPass occlusion_pass_;
+    FilterPass filter_pass_;
+    SynthesisPass synthesis_pass_;
+    DisplayPass display_pass_;
+    Batch batch_;
+    gl::Buffer frame_{"frame"}, materials_{"materials"}, lights_{"lights"}, counters_{"counters"};
+    std::optional<Targets> targets_;
+    Timers timers_;
+
+    Scene scene_;
+    FrameOptions options_;
+    std::string transport_;  ///< all that the accumulated samples depend on, as bytes; see update
+
+    // The frame being rendered: batch after batch the camera and direct light, then sample after sample the far light.
+    bool in_frame_ = false;
+    std::size_t batch_index_ = 0;
+    int sample_ = -1;  ///< -1: camera and direct light
+    int frame_samples_ = 0;
+    int completed_cameras_ = 0;   ///< frames whose camera pass is in the accumulators
+    unsigned far_samples_ = 0;    ///< of every pixel since the last discard
+    unsigned occlusion_samples_ = 0;
+    std::chrono::steady_clock::time_point frame_start_;
+    Statistics statistics_;
+};
+
+}  // namespace farfield

@@ -1,0 +1,152 @@
+// What all kernels share: the frame's constants, the records that travel between kernels, random numbers. World frame,
+// y up, metres. The C++ side of the records is renderer/records.h; a test compares the layouts.
+
+#define PI 3.14159265358979
+
+layout(std140, binding = 0) uniform Frame {
+    vec3 camera_position;
+    float pixel_angle;      // radians across one pixel at the picture's centre
+    vec3 camera_right;      // to the right edge of the picture at distance 1
+    float jitter_x;         // of this frame's camera rays within the pixel, -0.5..0.5
+    vec3 camera_up;         // to the upper edge
+    float jitter_y;
+    vec3 camera_forward;
+    uint seed;
+    vec3 sky_horizon;
+    int light_count;
+    vec3 sky_zenith;
+    float unused;
+    ivec2 image_size;       // pixels
+};
+
+struct Ray {
+    vec3 origin;
+    float reach;      // how far to look; 0 for no ray
+    vec3 direction;   // unit
+    float footprint;  // a hit may be this much off for each metre travelled
+};
+
+struct Hit {
+    float distance;  // along the ray; -1 for none
+    uint normal;     // octahedral, see pack_normal
+    uint material;   // code of blend_materials
+    uint steps;      // distance evaluations of the march; bit 31: stopped by the step limit
+};
+
+const uint no_surface = 0xffffffffu;
+struct Surface {
+    vec3 position;
+    uint material;  // code, or no_surface
+    vec3 normal;
+    float epsilon;  // how far the position may be off, metres
+};
+
+// One path of far light: what its next vertex contributes is multiplied by the throughput.
+struct Path {
+    vec3 throughput;
+    float unused0;
+    vec3 radiance;
+    float unused1;
+};
+
+struct Material {
+    vec3 albedo;
+    float specular;
+    vec3 emission;
+    float exponent;
+};
+
+struct Light {
+    vec3 position;   // directional: the way the light travels, unit
+    uint directional;
+    vec3 intensity;  // W/sr, directional: W/m²
+    float unused;
+};
+
+layout(std430, binding = 0) buffer Rays { Ray rays[]; };
+layout(std430, binding = 1) buffer Hits { Hit hits[]; };
+layout(std430, binding = 2) buffer Surfaces { Surface surfaces[]; };  // of the camera rays or of the paths' vertices
+layout(std430, binding = 3) buffer Paths { Path paths[]; };
+layout(std430, binding = 4) readonly buffer Materials { Material materials[]; };
+layout(std430, binding = 5) readonly buffer Lights { Light lights[]; };
+
+// ---- accumulators: sums over frames, one element for each pixel, row 0 at the top ----
+layout(std430, binding = 6) buffer Direct { vec4 direct_sum[]; };        // radiance; w: depth, metres
+layout(std430, binding = 7) buffer Geometry { vec4 geometry_sum[]; };    // normal; w: hits
+layout(std430, binding = 8) buffer Reflectance { vec4 albedo_sum[]; };   // albedo; w: steps of the camera ray
+layout(std430, binding = 9) buffer FarLight { vec4 far_sum[]; };         // irradiance / pi where there is a surface; w: samples
+layout(std430, binding = 10) buffer Indirect { vec4 indirect_sum[]; };   // albedo x irradiance / pi; w: samples, surface or not
+layout(std430, binding = 11) buffer Occlusion { vec4 occlusion_sum[]; }; // x: rays that left the AO radius, y: rays
+
+// Octahedral map of the unit sphere (Meyer et al. 2010), 16 bits for each of two coordinates.
+uint pack_normal(vec3 n) {
+    vec2 q = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));
+    vec2 s = vec2(q.x >= 0.0 ? 1.0 : -1.0, q.y >= 0.0 ? 1.0 : -1.0);
+    return packSnorm2x16(n.z >= 0.0 ? q : (1.0 - abs(q.yx)) * s);
+}
+
+vec3 unpack_normal(uint code) {
+    vec2 q = unpackSnorm2x16(code);
+    vec3 n = vec3(q, 1.0 - abs(q.x) - abs(q.y));
+    float t = max(-n.z, 0.0);
+    n.x += n.x >= 0.0 ? -t : t;
+    n.y += n.y >= 0.0 ? -t : t;
+    return normalize(n);
+}
+
+vec3 sky(vec3 direction) {
+    return mix(sky_horizon, sky_zenith, clamp(direction.y, 0.0, 1.0));
+}
+
+Material material_of(uint code) {
+    Material m = materials[code & 0xfffu];
+    float share = float(code >> 24u) / 255.0;
+    Material other = materials[share > 0.0 ? (code >> 12u) & 0xfffu : code & 0xfffu];
+    return Material(mix(m.albedo, other.albedo, share), mix(m.specular, other.specular, share),
+                    mix(m.emission, other.emission, share), mix(m.exponent, other.exponent, share));
+}
+
+// pcg3d of Jarzynski and Olano, "Hash Functions for GPU Rendering", 2020.
+uvec3 hash(uvec3 v) {
+    v = v * 1664525u + 1013904223u;
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v ^= v >> 16u;
+    v.x += v.y * v.z;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    return v;
+}
+
+vec2 unit_square(uvec2 v) {
+    return vec2(v >> 8u) * (1.0 / 16777216.0);
+}
+
+// Sample `index` of a pixel: Roberts' R2 sequence (2018) in integers, moved by a hash of pixel, stream and seed.
+vec2 sequence_sample(uint pixel, uint index, uint stream) {
+    return unit_square(hash(uvec3(pixel, stream, seed)).xy + index * uvec2(3242174889u, 2447445414u));
+}
+
+// The same without stratification: for further bounces, where one sequence for all dimensions would be biased.
+vec2 independent_sample(uint pixel, uint index, uint stream) {
+    return unit_square(hash(uvec3(pixel ^ (seed * 0x9e3779b9u), index, stream)).xy);
+}
+
+// Direction about unit n with density cos / pi (Malley's method in the basis of Duff et al. 2017).
+vec3 cosine_direction(vec3 n, vec2 u) {
+    float s = n.z >= 0.0 ? 1.0 : -1.0;
+    float a = -1.0 / (s + n.z);
+    float b = n.x * n.y * a;
+    vec3 tangent = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
+    vec3 bitangent = vec3(b, s + n.y * n.y * a, -n.y);
+    float r = sqrt(u.x);
+    float phi = 2.0 * PI * u.y;
+    return normalize(tangent * (r * cos(phi)) + bitangent * (r * sin(phi)) + n * sqrt(max(1.0 - u.x, 0.0)));
+}
+
+// Where rays leave a surface: clear of it by more than it may be off and than float spacing.
+vec3 leave(Surface s) {
+    float spacing = max(abs(s.position.x), max(abs(s.position.y), abs(s.position.z))) * 1e-6;
+    return s.position + s.normal * (2.0 * max(s.epsilon, max(1e-4, spacing)));
+}

@@ -1,0 +1,24 @@
+// One cosine-distributed ray from each surface: the start of a far-light path (stream 0), its continuation (stream =
+// bounce), or a short ray of ambient occlusion.
+layout(local_size_x = 64) in;
+
+uniform uint ray_count;
+uniform uint first_surface;
+uniform uint first_pixel;
+uniform uint sample_index;  // counts on over frames
+uniform uint stream;
+uniform int stratified;     // 1: low-discrepancy sequence, for dimensions that are a pixel's first
+uniform int start_path;     // 1: a new path begins
+uniform float reach;
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= ray_count) return;
+    Surface s = surfaces[first_surface + i];
+    bool any = s.material != no_surface;
+    uint pixel = first_pixel + i;
+    vec2 u = stratified == 1 ? sequence_sample(pixel, sample_index, stream) : independent_sample(pixel, sample_index, stream);
+    vec3 direction = cosine_direction(s.normal, u);
+    rays[i] = Ray(leave(s), any ? reach : 0.0, direction, 1e-3);
+    if (start_path == 1) paths[i] = Path(vec3(1.0), 0.0, vec3(0.0), 0.0);
+}

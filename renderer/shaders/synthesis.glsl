@@ -1,0 +1,42 @@
+// From the accumulators and the filtered far light to the chosen view, linear. The paper's synthesis: direct light by
+// Phong plus albedo x ambient occlusion x filtered far light ("ambient occlusion whose ambient colour is the filtered
+// light"). Its product counts near occlusion twice; the reference method uses what was accumulated as it is.
+layout(local_size_x = 8, local_size_y = 8) in;
+
+layout(binding = 0) uniform sampler2D filtered_light;  // premultiplied by w
+layout(binding = 0, rgba32f) writeonly uniform image2D target;
+
+uniform int view;    // enum View of renderer/views.h
+uniform int method;  // enum Method of sdf/scene.h
+uniform float frames;  // accumulated
+
+void main() {
+    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(at, image_size))) return;
+    int pixel = at.y * image_size.x + at.x;
+    vec4 direct4 = direct_sum[pixel];
+    vec3 direct = direct4.rgb / frames;
+    vec4 albedo4 = albedo_sum[pixel];
+    vec3 albedo = albedo4.rgb / frames;
+    vec4 coarse4 = far_sum[pixel];
+    vec3 coarse = coarse4.rgb / max(coarse4.w, 1.0);
+    vec4 filtered4 = textureLod(filtered_light, (vec2(at) + 0.5) / vec2(image_size), 0.0);
+    vec3 filtered = filtered4.w > 0.0 ? filtered4.rgb / filtered4.w : vec3(0.0);
+    vec4 occlusion4 = occlusion_sum[pixel];
+    float occlusion = occlusion4.y > 0.0 ? occlusion4.x / occlusion4.y : 1.0;
+    vec4 indirect4 = indirect_sum[pixel];
+    vec4 geometry = geometry_sum[pixel];
+    float covered = geometry.w / frames;
+
+    vec3 color = vec3(0.0);
+    if (view == 0) color = direct + (method == 0 ? albedo * occlusion * filtered : indirect4.rgb / max(indirect4.w, 1.0));
+    if (view == 1) color = direct;
+    if (view == 2) color = coarse * covered;
+    if (view == 3) color = filtered * covered;
+    if (view == 4) color = direct + albedo * filtered;
+    if (view == 5) color = vec3(mix(1.0, occlusion, covered));
+    if (view == 6) color = geometry.w > 0.0 ? normalize(geometry.xyz + vec3(0.0, 1e-9, 0.0)) * 0.5 + 0.5 : vec3(0.0);
+    if (view == 7) color = vec3(geometry.w > 0.0 ? direct4.w / geometry.w : 0.0);
+    if (view == 8) color = vec3(albedo4.w / frames);
+    imageStore(target, at, vec4(color, 1.0));
+}

@@ -1,0 +1,80 @@
+// Ray buffer to hit buffer: the only kernel that knows the scene. The generated distance function stands before this.
+//
+// Auto-relaxed sphere tracing (Bán and Valasek, "Automatic Step Size Relaxation in Sphere Tracing", 2023): the step is
+// stretched by the slope of the distance seen so far and taken back where the spheres of two steps do not overlap.
+// beta = 0.5 saves 23 to 29 % of the evaluations of diffuse rays. One loop with one call site: Mesa inlines every call, and
+// each further copy of the scene costs compile time, not speed.
+layout(local_size_x = 64) in;
+
+layout(std430, binding = 12) buffer Counters { uint counted_rays; uint counted_steps; uint exhausted_rays; };
+
+uniform uint ray_count;
+uniform int surface_wanted;  // 1: also normal and material; 0: the distance is enough (shadow, occlusion)
+uniform int counting;        // 1: add to the counters
+
+const int step_limit = 256;
+const float beta = 0.5;
+const float smallest_epsilon = 1e-5;
+
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= ray_count) return;
+    Ray ray = rays[i];
+
+    float spacing = 2.5e-7 * max(abs(ray.origin.x), max(abs(ray.origin.y), abs(ray.origin.z)));
+    float t = 0.0;         // nothing lies before this
+    float radius = 0.0;    // distance there
+    float stride = 0.0;    // step being tried
+    float slope = -1.0;    // of the distance along the ray, smoothed
+    float epsilon = 0.0;
+    float best = 1e30;     // least distance / epsilon seen, and where: what a grazing ray falls back to
+    float best_t = 0.0;
+    bool found = false;
+    int steps = 0;
+    while (t < ray.reach && !found && steps < step_limit) {
+        float next = t + stride;
+        float d = scene_distance(ray.origin + next * ray.direction);
+        ++steps;
+        if (stride <= radius + abs(d)) {
+            slope = stride > 0.0 ? mix(clamp((d - radius) / stride, -1.0, 0.9), slope, beta) : -1.0;
+            t = next;
+            radius = d;
+            epsilon = max(smallest_epsilon, max(ray.footprint * t, spacing + 2.5e-7 * t));
+            found = d < epsilon;
+            if (d < best * epsilon) {
+                best = d / epsilon;
+                best_t = t;
+            }
+        } else {
+            slope = -1.0;
+        }
+        stride = 2.0 * max(radius, 0.0) / (1.0 - slope);
+    }
+    bool exhausted = steps >= step_limit && !found && t < ray.reach;
+    if (exhausted) t = best_t;
+    else if (found) t += max(radius, 0.0);
+    found = (found && t < ray.reach) || exhausted;
+
+    vec3 p = ray.origin + t * ray.direction;
+    vec3 gradient = vec3(0.0);
+    uint material = 0u;
+    // Loops, not ifs: llvmpipe skips only loops.
+    int corners = found ? surface_wanted * 4 : 0;
+    for (int k = 0; k < corners; ++k) {
+        // Corners of a tetrahedron: (1,1,1), (1,-1,-1), (-1,1,-1), (-1,-1,1).
+        vec3 e = vec3(k < 2 ? 1.0 : -1.0, (k & 1) == 0 ? 1.0 : -1.0, k == 0 || k == 3 ? 1.0 : -1.0);
+        gradient += e * scene_distance(p + e * max(epsilon, 4.0 * spacing + 1e-4));
+    }
+    for (int k = 0; k < corners; k += 4) material = scene_material(p);
+
+    float steepness = dot(gradient, gradient);
+    vec3 normal = steepness > 0.0 ? gradient * inversesqrt(steepness) : -ray.direction;
+    hits[i] = Hit(found ? t : -1.0, pack_normal(normal), material, uint(steps) | (exhausted ? 0x80000000u : 0u));
+
+    int counted = ray.reach > 0.0 ? counting : 0;
+    for (int k = 0; k < counted; ++k) {
+        atomicAdd(counted_rays, 1u);
+        atomicAdd(counted_steps, uint(steps));
+        if (exhausted) atomicAdd(exhausted_rays, 1u);
+    }
+}

@@ -1,0 +1,39 @@
+// Time per pass by timestamp queries; results are read when they are there, a frame or more late.
+#pragma once
+
+#include "renderer/gl.h"
+#include "renderer/statistics.h"
+
+#include <vector>
+
+namespace farfield {
+
+class Timers {
+public:
+    /// Between construction and destruction of the scope the pass's time runs. Names must be literals.
+    class Scope {
+    public:
+        Scope(Timers& timers, const char* name);
+        ~Scope();
+        Scope(const Scope&) = delete;
+        Scope& operator=(const Scope&) = delete;
+
+    private:
+        Timers& timers_;
+        std::size_t index_;
+    };
+
+    void begin_frame();  ///< what was measured before is dropped
+    /// Sum for each pass since begin_frame; waits for the device.
+    std::vector<PassTime> collect();
+
+private:
+    struct Interval {
+        const char* name;
+        gl::Handle<gl::QueryTraits> begin, end;
+    };
+    std::vector<Interval> intervals_;
+    std::size_t used_ = 0;
+};
+
+}  // namespace farfield
