@@ -1,0 +1,187 @@
+#include "ui/inspector_panel.h"
+
+#include "ui/kind_menu.h"
+#include "ui/tree_panel.h"
+#include "ui/value_row.h"
+
+#include <fmt/format.h>
+#include <imgui_stdlib.h>
+
+namespace farfield {
+namespace {
+
+void name_row(Ui& ui, ObjectRef object, const std::string& name, const char* empty, Edits& edits) {
+    ImGui::PushID(static_cast<int>(object.type));
+    ImGui::PushID(static_cast<int>(object.id));
+    row_label(ui, "Name", false);
+    if (ui.focus_name && ui.inspected == ui.selection) {
+        ImGui::SetKeyboardFocusHere();
+        ui.focus_name = false;
+    }
+    // Shown from the scene until someone types; what was typed is an edit once the field is left.
+    std::string text = name;
+    const ImGuiID id = ImGui::GetID("##name");
+    ImGuiStorage& storage = *ImGui::GetStateStorage();
+    const bool typing = storage.GetBool(id);
+    if (typing) text = ui.name_text;
+    ImGui::InputTextWithHint("##name", empty, &text, ImGuiInputTextFlags_AutoSelectAll);
+    ui.report.item("inspector", "name");
+    ui.name_text = text;
+    storage.SetBool(id, ImGui::IsItemActive());
+    if (ImGui::IsItemDeactivatedAfterEdit() && text != name) edits.push_back(SetName{object, text});
+    ImGui::PopID();
+    ImGui::PopID();
+}
+
+void kind_row(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
+    const KindInfo& kind = info(node.kind);
+    row_label(ui, "Kind", false);
+    const bool fixed = node.id == scene.root.id;
+    ImGui::BeginDisabled(fixed);
+    ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, {FLT_MAX, FLT_MAX});
+    const bool open = ImGui::BeginCombo("##kind", kind.label, ImGuiComboFlags_HeightLargest);
+    ui.report.item("inspector", "kind");
+    if (open) {
+        const auto allowed = [&](const KindInfo& k) { return node.children.empty() || k.takes_children(); };
+        if (const auto chosen = kind_menu(ui, "kind", allowed)) {
+            if (*chosen != node.kind) edits.push_back(SetKind{node.id, *chosen});
+            ImGui::CloseCurrentPopup();
+        }
+        ImGui::EndCombo();
+    } else {
+        tooltip(ui, kind.tip, kind.exact ? "Exact distance" : "Lower bound of the distance");
+    }
+    ImGui::EndDisabled();
+}
+
+void material_row(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
+    row_label(ui, "Material", node.material != 0);
+    const Material* material = find_material(scene, node.material);
+    const float side = ImGui::GetFrameHeight();
+    if (material) {
+        if (ImGui::ColorButton("##open", display_color(material->albedo), ImGuiColorEditFlags_NoTooltip, {side * 1.3f, side}))
+            ui.selection = {ObjectType::material, material->id};
+        ui.report.item("inspector", "material_open");
+        tooltip(ui, "Edit this material");
+        ImGui::SameLine(0.0f, ui.theme.px(4.0f));
+        ImGui::SetNextItemWidth(-FLT_MIN);
+    }
+    const char* inherit = node.id == scene.root.id ? "first in the list" : "as its group";
+    const bool open = ImGui::BeginCombo("##material", material ? material->name.c_str() : inherit);
+    ui.report.item("inspector", "material");
+    if (!open) {
+        tooltip(ui, "The surface of this node and of everything in it that has no material of its own");
+        return;
+    }
+    if (ImGui::Selectable(inherit, node.material == 0)) edits.push_back(SetMaterial{node.id, 0});
+    ui.report.item("material", "inherit");
+    ImGui::Separator();
+    for (const Material& m : scene.materials) {
+        ImGui::PushID(static_cast<int>(m.id));
+        const float small = ImGui::GetTextLineHeight();
+        ImGui::ColorButton("##swatch", display_color(m.albedo), ImGuiColorEditFlags_NoTooltip, {small, small});
+        ImGui::SameLine();
+        if (ImGui::Selectable(m.name.c_str(), node.material == m.id) && m.id != node.material)
+            edits.push_back(SetMaterial{node.id, m.id});
+        ui.report.item("material", m.name);
+        ImGui::PopID();
+    }
+    ImGui::EndCombo();
+}
+
+int uses(const Node& node, Id material) {
+    int count = node.material == material ? 1 : 0;
+    for (const Node& child : node.children) count += uses(child, material);
+    return count;
+}
+
+void delete_button(Ui& ui, const Scene& scene, const char* label, bool enabled, Edits& edits) {
+    ImGui::Dummy({0.0f, ui.theme.px(4.0f)});
+    ImGui::BeginDisabled(!enabled);
+    if (ImGui::Button(label, {-FLT_MIN, 0.0f})) edits = delete_selection(ui, scene);
+    ImGui::EndDisabled();
+    ui.report.item("inspector", "delete");
+}
+
+void inspect_node(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
+    name_row(ui, ui.inspected, node.name, info(node.kind).label, edits);
+    kind_row(ui, scene, node, edits);
+    material_row(ui, scene, node, edits);
+    const std::size_t own = info(node.kind).parameters.size();
+    if (own > 0) section(ui, "Shape");
+    value_rows(ui, "inspector", scene, ui.inspected, edits, 0, own);
+    section(ui, "Placement");
+    value_rows(ui, "inspector", scene, ui.inspected, edits, own);
+    if (info(node.kind).takes_children() && node.children.empty()) {
+        ImGui::Dummy({0.0f, ui.theme.px(4.0f)});
+        ImGui::PushTextWrapPos(0.0f);
+        ImGui::TextDisabled("Nothing inside yet: it shows once it holds a shape. Press + Add, or drag nodes onto it.");
+        ImGui::PopTextWrapPos();
+    }
+    if (node.id != scene.root.id) delete_button(ui, scene, "Delete node", true, edits);
+}
+
+void inspect_material(Ui& ui, const Scene& scene, const Material& material, Edits& edits) {
+    name_row(ui, ui.inspected, material.name, "a name is needed", edits);
+    const int count = uses(scene.root, material.id);
+    row_label(ui, "Used by", false);
+    if (&material == scene.materials.data()) ImGui::TextDisabled("%d nodes, and all without one", count);
+    else ImGui::TextDisabled("%d %s", count, count == 1 ? "node" : "nodes");
+    section(ui, "Surface");
+    value_rows(ui, "inspector", scene, ui.inspected, edits);
+    delete_button(ui, scene, "Delete material", scene.materials.size() > 1, edits);
+}
+
+void inspect_light(Ui& ui, const Scene& scene, const Light& light, Edits& edits) {
+    name_row(ui, ui.inspected, light.name, "a name is needed", edits);
+    row_label(ui, "Kind", false);
+    const auto label = [](int kind) { return label_of(light_kind_keys[kind]); };
+    const bool open = ImGui::BeginCombo("##kind", label(static_cast<int>(light.kind)).c_str());
+    ui.report.item("inspector", "kind");
+    if (open) {
+        for (int i = 0; i < static_cast<int>(std::size(light_kind_keys)); ++i) {
+            const auto kind = static_cast<LightKind>(i);
+            if (ImGui::Selectable(label(i).c_str(), light.kind == kind) && light.kind != kind)
+                edits.push_back(SetLightKind{light.id, kind});
+            ui.report.item("kind", light_kind_keys[i]);
+        }
+        ImGui::EndCombo();
+    }
+    section(ui, "Light");
+    value_rows(ui, "inspector", scene, ui.inspected, edits);
+    delete_button(ui, scene, "Delete light", true, edits);
+}
+
+}  // namespace
+
+Edits inspector_panel(Ui& ui, const Scene& scene) {
+    Edits edits;
+    panel_title(ui, "Inspector");
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.theme.px(10.0f), ui.theme.px(8.0f)});
+    ImGui::BeginChild("rows", {0.0f, 0.0f}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+    const ObjectRef selection = ui.inspected;
+    ImGui::PushID(static_cast<int>(selection.type));
+    ImGui::PushID(static_cast<int>(selection.id));
+    if (const Node* node = selection.type == ObjectType::node ? find_node(scene, selection.id) : nullptr) {
+        inspect_node(ui, scene, *node, edits);
+    } else if (const Material* material = selection.type == ObjectType::material ? find_material(scene, selection.id) : nullptr) {
+        inspect_material(ui, scene, *material, edits);
+    } else if (const Light* light = selection.type == ObjectType::light ? find_light(scene, selection.id) : nullptr) {
+        inspect_light(ui, scene, *light, edits);
+    } else if (selection.type == ObjectType::sky || selection.type == ObjectType::camera) {
+        section(ui, selection.type == ObjectType::sky ? "Sky radiance" : "Camera");
+        value_rows(ui, "inspector", scene, selection, edits);
+    } else {
+        ImGui::PushTextWrapPos(0.0f);
+        ImGui::TextDisabled("Nothing is selected. Click a node in the tree, or a material or light below it, to edit it here.");
+        ImGui::PopTextWrapPos();
+    }
+    ImGui::PopID();
+    ImGui::PopID();
+    ImGui::EndChild();
+    ImGui::PopStyleVar();
+    ui.inspected = ui.selection;
+    return edits;
+}
+
+}  // namespace farfield

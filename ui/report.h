@@ -1,0 +1,48 @@
+// What a test that drives the window by mouse and keyboard needs to know: where each named control is, and what the
+// program thinks its state is. Off unless a file is named, and then nothing is stored.
+#pragma once
+
+#include "renderer/statistics.h"
+
+#include <imgui.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace farfield {
+
+struct ReportState {
+    Statistics statistics;
+    std::uint64_t revision = 0;  ///< of the document
+    std::uint64_t pictures = 0;  ///< shown so far
+    bool saved = true;
+    std::string file;   ///< of the document, empty before the first save
+    std::string error;  ///< what the error bar shows
+    std::string selection;
+};
+
+class Report {
+public:
+    /// Empty path: off.
+    explicit Report(std::filesystem::path file = {}) : file_(std::move(file)) {}
+
+    void begin_frame() { controls_.clear(); }
+    /// Records the rectangle of the last ImGui item as "PANEL/NAME", where it is visible.
+    void item(std::string_view panel, std::string_view name);
+    void rectangle(std::string_view panel, std::string_view name, ImVec2 low, ImVec2 high);
+    /// Writes controls (window pixels: x, y, width, height) and state as JSON when they changed, ten times a second at
+    /// most. Atomic, so that a reader sees a whole file.
+    void write(const ReportState& state, double now);
+
+private:
+    struct Rectangle { int x, y, width, height; };
+    std::filesystem::path file_;
+    std::map<std::string, Rectangle> controls_;
+    std::string written_;
+    double last_write_ = -1.0;
+};
+
+}  // namespace farfield

@@ -1,0 +1,56 @@
+// What all panels share: looks, the report for tests, and the state of the user interface that is not part of the
+// document. A panel takes a const scene and returns edits; someone else carries them out.
+#pragma once
+
+#include "renderer/views.h"
+#include "sdf/edit.h"
+#include "ui/report.h"
+#include "ui/theme.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace farfield {
+
+using Edits = std::vector<Edit>;
+
+struct Ui {
+    Ui(const Theme& look, Report to) : theme(look), report(std::move(to)) {}
+
+    Theme theme;
+    Report report;
+    ObjectRef selection;  ///< may name an object that is gone
+    ObjectRef inspected;  ///< what the inspector shows: follows the selection a frame late, so that a field that loses
+                          ///< the keyboard to a click elsewhere can still hand in what was typed
+    View view = View::result;
+    bool show_statistics = true;
+    bool show_shortcuts = false;
+    Id reveal = 0;            ///< node that the tree opens and scrolls to, once
+    bool open_add = false;    ///< the tree opens its list of kinds to add, once
+    bool focus_name = false;  ///< the inspector puts the keyboard into the name field, once
+    std::string name_text;    ///< what the name field holds while someone types
+};
+
+/// True while the selection names something that exists in the scene.
+bool exists(const Scene& scene, ObjectRef object);
+
+/// "Half size" for "half_size".
+std::string label_of(std::string_view key);
+
+/// The title strip of a panel, as wide as that.
+void panel_title(const Ui& ui, const char* title);
+
+/// Small heading between groups of rows.
+void section(const Ui& ui, const char* title);
+
+/// Tooltip of the last item after a short rest of the mouse; the second text is dimmed.
+void tooltip(const Ui& ui, std::string_view text, std::string_view hint = {});
+
+/// The sign of a node's role: disc, two discs, four dots or a ring.
+void draw_icon(const Ui& ui, Role role, ImVec2 centre);
+
+/// A bar to drag between panels, at `low` and of `extent`; upright when taller than wide. Returns how far it was moved.
+float splitter(Ui& ui, const char* id, ImVec2 low, ImVec2 extent);
+
+}  // namespace farfield

@@ -1,0 +1,269 @@
+#include "ui/value_row.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace farfield {
+namespace {
+
+using glm::vec3;
+
+float srgb_from_linear(float v) { return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f; }
+float linear_from_srgb(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
+
+/// Digits after the point that dragging works in.
+int decimals(const Parameter& parameter, float value) {
+    if (parameter.is_whole()) return 0;
+    if (parameter.unit == Unit::degrees || parameter.unit == Unit::degrees_per_metre) return 1;
+    if (parameter.unit == Unit::stops) return 2;
+    return value != 0.0f && std::abs(value) < 0.01f ? 5 : 3;
+}
+
+float rounded(const Parameter& parameter, float value) {
+    const double step = std::pow(10.0, decimals(parameter, value));
+    return static_cast<float>(std::round(static_cast<double>(value) * step) / step);
+}
+
+/// A printf format without needless zeros; while the value is being dragged its length stays the same.
+std::string number_format(const Parameter& parameter, float value, bool active, std::string_view unit) {
+    int digits = decimals(parameter, value);
+    if (!active) {
+        const std::string text = fmt::format("{:.{}f}", value, digits);
+        while (digits > 0 && text[text.size() - 1 - (decimals(parameter, value) - digits)] == '0') --digits;
+    }
+    return fmt::format("%.{}f{}{}", digits, unit.empty() || unit[0] == '\xc2' ? "" : " ", unit);
+}
+
+/// Change for each pixel that the mouse moves.
+float drag_speed(const Parameter& parameter, float value) {
+    if (parameter.is_whole()) return 0.1f;
+    float speed = 0.01f * std::max(0.5f, std::abs(value));
+    if (parameter.unit == Unit::degrees || parameter.unit == Unit::degrees_per_metre) speed = 0.5f;
+    if (parameter.unit == Unit::stops) speed = 0.02f;
+    if (parameter.maximum - parameter.minimum <= 1.0f) speed = 0.004f;
+    // ImGui makes Shift ten times faster; here it is ten times finer.
+    if (ImGui::GetIO().KeyShift) speed *= 0.01f;
+    if (ImGui::GetIO().KeyCtrl) speed *= 10.0f;
+    return speed;
+}
+
+std::string hint_text(const Parameter& parameter) {
+    std::string initial;
+    const auto number = [&](int i) { return fmt::format("{:g}", parameter.initial[i]); };
+    switch (parameter.type) {
+        case ParameterType::choice: initial = parameter.choices[static_cast<std::size_t>(parameter.initial.x)]; break;
+        case ParameterType::flags:
+            for (int i = 0; i < 3; ++i)
+                if (parameter.initial[i] != 0.0f) initial += "xyz"[i];
+            if (initial.empty()) initial = "none";
+            break;
+        default:
+            initial = parameter.components() == 1 ? number(0) : fmt::format("{}, {}, {}", number(0), number(1), number(2));
+            initial += fmt::format(" {}", unit_symbol(parameter.unit));
+    }
+    const bool numeric = parameter.type != ParameterType::choice && parameter.type != ParameterType::flags;
+    return fmt::format("Default {}. {}Right-click to reset.", initial,
+                       numeric ? "Double-click to type; Shift drags finer, Ctrl coarser. " : "");
+}
+
+/// Right-click on the last item asks for the default.
+bool asked_for_default() { return ImGui::IsItemHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Right); }
+
+/// One number as a drag field or a slider of the next item's width.
+bool number_field(const char* id, const Parameter& parameter, float& value, std::string_view unit,
+                  const SliderRange* range) {
+    const bool active = ImGui::GetActiveID() == ImGui::GetID(id);
+    const std::string format = number_format(parameter, value, active && !range, unit);
+    float edited = value;
+    bool changed = false;
+    if (range) {
+        if (parameter.is_whole()) {
+            int whole = static_cast<int>(value);
+            changed = ImGui::SliderInt(id, &whole, static_cast<int>(range->low), static_cast<int>(range->high),
+                                       fmt::format("%d{}{}", unit.empty() ? "" : " ", unit).c_str());
+            edited = static_cast<float>(whole);
+        } else {
+            changed = ImGui::SliderFloat(id, &edited, range->low, range->high, format.c_str(),
+                                         ImGuiSliderFlags_NoRoundToFormat |
+                                             (range->logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None));
+        }
+        // A drag field takes a double-click by itself, a slider needs to be told.
+        if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) ImGui::SetKeyboardFocusHere(-1);
+    } else {
+        changed = ImGui::DragFloat(id, &edited, drag_speed(parameter, value), parameter.minimum, parameter.maximum,
+                                   format.c_str(), ImGuiSliderFlags_NoRoundToFormat);
+    }
+    if (!changed) return false;
+    const bool typed = ImGui::TempInputIsActive(ImGui::GetID(id));
+    value = typed ? edited : rounded(parameter, edited);
+    return true;
+}
+
+/// Fields for x, y and z side by side, each with a stripe in the colour of its axis.
+bool vector_fields(Ui& ui, const std::string& name, const char* panel, const Parameter& parameter, vec3& value,
+                   bool axes) {
+    const float gap = ui.theme.px(4.0f);
+    const float width = std::floor((ImGui::GetContentRegionAvail().x - 2.0f * gap) / 3.0f);
+    const std::string_view unit = parameter.unit == Unit::degrees ? unit_symbol(parameter.unit) : "";
+    bool changed = false;
+    for (int i = 0; i < 3; ++i) {
+        if (i > 0) ImGui::SameLine(0.0f, gap);
+        ImGui::SetNextItemWidth(width);
+        const char id[] = {'#', '#', "xyz"[i], 0};
+        changed |= number_field(id, parameter, value[i], unit, nullptr);
+        ui.report.item(panel, name + "/" + "xyz"[i]);
+        tooltip(ui, parameter.tip, hint_text(parameter));
+        if (asked_for_default()) value[i] = parameter.initial[i], changed = true;
+        if (!axes) continue;
+        const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+        ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + ui.theme.px(3.0f), high.y}, ui.theme.axis[i],
+                                                  ImGui::GetStyle().FrameRounding, ImDrawFlags_RoundCornersLeft);
+    }
+    return changed;
+}
+
+bool flag_buttons(Ui& ui, const std::string& name, const char* panel, const Parameter& parameter, vec3& value) {
+    bool changed = false;
+    for (int i = 0; i < 3; ++i) {
+        if (i > 0) ImGui::SameLine(0.0f, ui.theme.px(4.0f));
+        const bool on = value[i] != 0.0f;
+        const char label[] = {"XYZ"[i], 0};
+        ImGui::PushStyleColor(ImGuiCol_Button, on ? ui.theme.axis[i] : ImGui::GetColorU32(ImGuiCol_FrameBg));
+        ImGui::PushStyleColor(ImGuiCol_Text, on ? IM_COL32(16, 18, 20, 255) : ui.theme.dim);
+        if (ImGui::Button(label, {ui.theme.px(34.0f), 0.0f})) value[i] = on ? 0.0f : 1.0f, changed = true;
+        ImGui::PopStyleColor(2);
+        ui.report.item(panel, name + "/" + "xyz"[i]);
+        tooltip(ui, parameter.tip, hint_text(parameter));
+        if (asked_for_default()) value[i] = parameter.initial[i], changed = true;
+    }
+    return changed;
+}
+
+/// A swatch that opens a picker, and the linear components beside it. Colours brighter than 1 are a hue times a strength.
+bool color_fields(Ui& ui, const std::string& name, const char* panel, const Parameter& parameter, vec3& value) {
+    bool changed = false;
+    const float side = ImGui::GetFrameHeight();
+    if (ImGui::ColorButton("##swatch", display_color(value), ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoAlpha,
+                           {side * 1.3f, side}))
+        ImGui::OpenPopup("picker");
+    ui.report.item(panel, name + "/swatch");
+    tooltip(ui, parameter.tip, hint_text(parameter));
+    if (asked_for_default()) value = parameter.initial, changed = true;
+    if (ImGui::BeginPopup("picker")) {
+        const bool bright = parameter.maximum > 1.0f;
+        float strength = bright ? std::max({value.x, value.y, value.z}) : 1.0f;
+        const vec3 hue = strength > 0.0f ? value / strength : vec3(1.0f);
+        float encoded[3];
+        for (int i = 0; i < 3; ++i) encoded[i] = srgb_from_linear(hue[i]);
+        ImGui::SetNextItemWidth(ui.theme.px(220.0f));
+        bool picked = ImGui::ColorPicker3("##picker", encoded,
+                                          ImGuiColorEditFlags_NoSidePreview | ImGuiColorEditFlags_NoLabel |
+                                              ImGuiColorEditFlags_DisplayRGB | ImGuiColorEditFlags_DisplayHSV |
+                                              ImGuiColorEditFlags_DisplayHex);
+        if (picked)
+            for (int i = 0; i < 3; ++i) value[i] = linear_from_srgb(encoded[i]);
+        if (picked && bright) {
+            // The picker's brightness is the strength's business.
+            const float most = std::max({value.x, value.y, value.z});
+            if (strength <= 0.0f) strength = 1.0f;
+            value *= most > 0.0f ? strength / most : 0.0f;
+        }
+        if (bright) {
+            ImGui::SetNextItemWidth(ui.theme.px(150.0f));
+            if (ImGui::DragFloat("Strength", &strength, 0.01f * std::max(0.5f, strength), 0.0f, parameter.maximum, "%.3f"))
+                value = hue * strength, picked = true;
+        }
+        for (int i = 0; i < 3; ++i) value[i] = picked ? std::round(value[i] * 1e4f) / 1e4f : value[i];
+        changed |= picked;
+        ImGui::EndPopup();
+    }
+    ImGui::SameLine(0.0f, ui.theme.px(4.0f));
+    return vector_fields(ui, name, panel, parameter, value, true) || changed;
+}
+
+bool choice_combo(Ui& ui, const std::string& name, const char* panel, const Parameter& parameter, vec3& value) {
+    bool changed = false;
+    const auto label = [&](std::size_t i) { return label_of(parameter.choices[i]); };
+    ImGui::SetNextItemWidth(-FLT_MIN);
+    const bool open = ImGui::BeginCombo("##choice", label(static_cast<std::size_t>(value.x)).c_str());
+    ui.report.item(panel, name);
+    if (open) {
+        for (std::size_t i = 0; i < parameter.choices.size(); ++i) {
+            if (ImGui::Selectable(label(i).c_str(), static_cast<std::size_t>(value.x) == i))
+                value.x = static_cast<float>(i), changed = true;
+            ui.report.item(panel, name + "/" + parameter.choices[i]);
+        }
+        ImGui::EndCombo();
+    } else {
+        tooltip(ui, parameter.tip, hint_text(parameter));
+        if (asked_for_default()) value = parameter.initial, changed = true;
+    }
+    return changed;
+}
+
+}  // namespace
+
+ImVec4 display_color(vec3 linear) {
+    const float most = std::max({linear.x, linear.y, linear.z, 1.0f});
+    return {srgb_from_linear(linear.x / most), srgb_from_linear(linear.y / most), srgb_from_linear(linear.z / most), 1.0f};
+}
+
+void row_label(const Ui& ui, std::string_view label, bool bright, std::string_view unit) {
+    const float start = ImGui::GetCursorPosX();
+    const float column = start + ui.theme.px(112.0f);
+    ImGui::AlignTextToFramePadding();
+    ImGui::PushStyleColor(ImGuiCol_Text, bright ? ui.theme.text : IM_COL32(176, 183, 193, 255));
+    ImGui::TextUnformatted(label.data(), label.data() + label.size());
+    ImGui::PopStyleColor();
+    if (!unit.empty()) {
+        ImGui::SameLine(0.0f, ui.theme.px(5.0f));
+        ImGui::TextDisabled("%.*s", static_cast<int>(unit.size()), unit.data());
+    }
+    ImGui::SameLine(column);
+    ImGui::SetNextItemWidth(-FLT_MIN);
+}
+
+std::optional<vec3> value_row(Ui& ui, const char* panel, const Parameter& parameter, vec3 value, const SliderRange* range) {
+    const std::string name = parameter.key;
+    const std::string_view unit = unit_symbol(parameter.unit);
+    bool differs = false;
+    for (int i = 0; i < parameter.components(); ++i) differs |= value[i] != parameter.initial[i];
+    const bool unit_beside = parameter.components() == 3 && parameter.unit != Unit::degrees;
+    ImGui::PushID(parameter.key);
+    row_label(ui, label_of(name), differs, unit_beside ? unit : "");
+    vec3 edited = value;
+    bool changed = false;
+    switch (parameter.type) {
+        case ParameterType::number:
+        case ParameterType::integer:
+            changed = number_field("##value", parameter, edited.x, unit, range);
+            ui.report.item(panel, name);
+            tooltip(ui, parameter.tip, hint_text(parameter));
+            if (asked_for_default()) edited = parameter.initial, changed = true;
+            break;
+        case ParameterType::vector:
+        case ParameterType::count: changed = vector_fields(ui, name, panel, parameter, edited, true); break;
+        case ParameterType::color: changed = color_fields(ui, name, panel, parameter, edited); break;
+        case ParameterType::flags: changed = flag_buttons(ui, name, panel, parameter, edited); break;
+        case ParameterType::choice: changed = choice_combo(ui, name, panel, parameter, edited); break;
+    }
+    ImGui::PopID();
+    edited = clamped(parameter, edited);
+    if (!changed || edited == value) return std::nullopt;
+    return edited;
+}
+
+void value_rows(Ui& ui, const char* panel, const Scene& scene, ObjectRef object, Edits& edits, std::size_t first,
+                std::size_t count) {
+    const std::vector<Parameter> list = parameters(scene, object);
+    for (std::size_t i = first; i < list.size() && i - first < count; ++i)
+        if (const auto changed = value_row(ui, panel, list[i], value(scene, object, list[i].key)))
+            edits.push_back(SetValue{object, list[i].key, *changed});
+}
+
+}  // namespace farfield
