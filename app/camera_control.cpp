@@ -1,0 +1,75 @@
+#include "app/camera_control.h"
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace farfield {
+namespace {
+
+using glm::vec3;
+
+constexpr float nearest_distance = 1e-3f;
+constexpr float steepest = 89.5f;  // degrees above or below the horizon: straight up has no sideways
+
+vec3 rounded(vec3 v) {
+    // A tenth of a millimetre is finer than a hand, and keeps files readable.
+    return {std::round(v.x * 1e4f) / 1e4f, std::round(v.y * 1e4f) / 1e4f, std::round(v.z * 1e4f) / 1e4f};
+}
+
+}  // namespace
+
+Camera orbited(const Camera& camera, glm::vec2 drag, float height) {
+    const vec3 offset = camera.position - camera.target;
+    const float distance = std::max(glm::length(offset), nearest_distance);
+    const float turn = glm::pi<float>() / std::max(height, 1.0f);
+    const float azimuth = std::atan2(offset.x, offset.z) - drag.x * turn;
+    const float limit = glm::radians(steepest);
+    const float elevation = std::clamp(std::asin(std::clamp(offset.y / distance, -1.0f, 1.0f)) + drag.y * turn, -limit, limit);
+    Camera moved = camera;
+    moved.position = camera.target + distance * vec3(std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
+                                                     std::cos(elevation) * std::cos(azimuth));
+    return moved;
+}
+
+Camera panned(const Camera& camera, glm::vec2 drag, float height) {
+    const vec3 view = camera.target - camera.position;
+    const float distance = std::max(glm::length(view), nearest_distance);
+    const vec3 forward = view / distance;
+    const vec3 side = glm::cross(forward, vec3(0.0f, 1.0f, 0.0f));
+    const vec3 right = glm::length(side) > 1e-6f ? glm::normalize(side) : vec3(1.0f, 0.0f, 0.0f);
+    const vec3 up = glm::cross(right, forward);
+    const float scale = 2.0f * distance * std::tan(glm::radians(camera.field_of_view) * 0.5f) / std::max(height, 1.0f);
+    const vec3 shift = (-drag.x * right + drag.y * up) * scale;
+    Camera moved = camera;
+    moved.position += shift;
+    moved.target += shift;
+    return moved;
+}
+
+Camera zoomed(const Camera& camera, float steps) {
+    const vec3 offset = camera.position - camera.target;
+    const float distance = glm::length(offset);
+    if (distance <= 0.0f) return camera;
+    const float to = std::clamp(distance * std::pow(0.88f, steps), 10.0f * nearest_distance, 1e5f);
+    Camera moved = camera;
+    moved.position = camera.target + offset * (to / distance);
+    return moved;
+}
+
+std::vector<Edit> camera_edits(const Camera& from, const Camera& to) {
+    std::vector<Edit> edits;
+    const ObjectRef camera{ObjectType::camera, 0};
+    for (const Field<Camera>& field : fields<Camera>()) {
+        const bool place = field.parameter.unit == Unit::metres;
+        const vec3 value = clamped(field.parameter, place ? rounded(field.get(to)) : field.get(to));
+        if (field.get(from) != value && field.get(from) != field.get(to))
+            edits.push_back(SetValue{camera, field.parameter.key, value});
+    }
+    return edits;
+}
+
+}  // namespace farfield

@@ -1,0 +1,49 @@
+#include "app/document.h"
+
+#include "sdf/scene_file.h"
+
+namespace farfield {
+
+Scene new_scene() {
+    Scene scene;
+    scene.sky.horizon = glm::vec3(0.45f, 0.5f, 0.55f);
+    scene.sky.zenith = glm::vec3(0.2f, 0.35f, 0.6f);
+    Light sun;
+    sun.id = scene.new_id();
+    sun.name = "sun";
+    sun.kind = LightKind::directional;
+    sun.direction = glm::vec3(-0.5f, -1.0f, -0.4f);
+    sun.intensity = glm::vec3(2.5f, 2.4f, 2.2f);
+    scene.lights.push_back(sun);
+    return scene;
+}
+
+std::shared_ptr<const Scene> Document::snapshot() {
+    if (!snapshot_ || snapshot_revision_ != revision()) {
+        snapshot_ = std::make_shared<const Scene>(scene());
+        snapshot_revision_ = revision();
+    }
+    return snapshot_;
+}
+
+void Document::reset() {
+    history_.replace(new_scene());
+    file_.clear();
+    ++generation_;
+    saved_revision_ = history_.revision();
+}
+
+void Document::open(const std::filesystem::path& file) {
+    history_.replace(load_scene(file));
+    file_ = file;
+    ++generation_;
+    saved_revision_ = history_.revision();
+}
+
+void Document::save(const std::filesystem::path& file) {
+    save_scene(scene(), file);
+    file_ = file;
+    saved_revision_ = history_.revision();
+}
+
+}  // namespace farfield

@@ -1,0 +1,50 @@
+// The open scene: its history, its file, and whether the file holds what is on screen.
+#pragma once
+
+#include "sdf/edit.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+namespace farfield {
+
+/// What "New" starts with: nothing but light to see the first shape by.
+Scene new_scene();
+
+class Document {
+public:
+    Document() { reset(); }
+
+    const Scene& scene() const { return history_.scene(); }
+    /// The current scene for another thread; the same object until something changes.
+    std::shared_ptr<const Scene> snapshot();
+    const History& history() const { return history_; }
+    std::uint64_t revision() const { return history_.revision(); }
+
+    Id apply(const Edit& edit, unsigned gesture) { return history_.apply(edit, gesture); }
+    void undo() { history_.undo(); }
+    void redo() { history_.redo(); }
+
+    void reset();
+    /// Throws SceneFileError and leaves everything as it was when the file does not hold a scene.
+    void open(const std::filesystem::path& file);
+    /// Throws SceneFileError.
+    void save(const std::filesystem::path& file);
+
+    /// Changes when another document takes this one's place.
+    std::uint64_t generation() const { return generation_; }
+    const std::filesystem::path& file() const { return file_; }  ///< empty for a document that was never saved
+    bool saved() const { return history_.revision() == saved_revision_; }
+    std::string name() const { return file_.empty() ? "untitled" : file_.filename().string(); }
+
+private:
+    History history_;
+    std::filesystem::path file_;
+    std::uint64_t saved_revision_ = 0;
+    std::uint64_t generation_ = 0;
+    std::shared_ptr<const Scene> snapshot_;
+    std::uint64_t snapshot_revision_ = 0;
+};
+
+}  // namespace farfield

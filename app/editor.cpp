@@ -1,0 +1,263 @@
+#include "app/editor.h"
+
+#include "app/editor_commands.h"
+#include "app/document.h"
+#include "app/file_actions.h"
+#include "app/layout.h"
+#include "app/window.h"
+#include "ui/tree_panel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <tuple>
+#include <utility>
+
+namespace farfield {
+namespace {
+
+// The picture gets no better by eye long before this many frames; then the machine may rest.
+constexpr int frames_until_rest = 4096;
+constexpr double slow_tick = 0.1;          // seconds between looks at the renderer while nothing happens
+constexpr double quick_tick = 1.0 / 60.0;  // and while a hand moves something or pictures come fast
+constexpr double wheel_rest = 0.4;         // turns of the wheel closer than this are one gesture
+constexpr double attention = 1.0;          // after input: tooltips wait for the mouse to rest
+constexpr int settling_frames = 3;         // ImGui needs a frame or two to lay out what has just appeared
+
+double seconds() {
+    using namespace std::chrono;
+    return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+Theme theme_for(const Window& window) {
+    const Theme theme = make_theme(window.density());
+    ImGui::GetIO().FontGlobalScale = 1.0f / window.pixels_per_unit().x;
+    return theme;
+}
+
+class Editor {
+public:
+    explicit Editor(const EditorOptions& options)
+        : window_({options.width, options.height}, "Farfield"),
+          render_(window_.make_shared_context()),
+          ui_(theme_for(window_), Report(options.report)),
+          layout_(ui_.theme) {
+        if (!options.scene.empty()) files_.open(options.scene);
+    }
+
+    void run() {
+        int redraws = settling_frames;
+        double last_input = seconds();
+        while (!files_.quits()) {
+            const bool lively = redraws > 0 || interacting_ || picture_.statistics.frames_per_second > 10.0;
+            if (window_.wait(lively ? quick_tick : slow_tick)) redraws = settling_frames, last_input = seconds();
+            const bool attentive = seconds() - last_input < attention || interacting_ || ImGui::GetIO().WantTextInput;
+            const bool first = picture_.texture == 0;
+            const bool news = look_for_picture();
+            if (first && picture_.texture != 0) redraws = settling_frames;
+            if (news || redraws > 0 || attentive) frame();
+            if (redraws > 0) --redraws;
+            write_report();
+        }
+    }
+
+private:
+    /// True when there is something new to show.
+    bool look_for_picture() {
+        RenderedPicture picture = render_.acquire();
+        const auto seen = [](const RenderedPicture& p) {
+            const Statistics& s = p.statistics;
+            return std::tuple(p.serial, p.error, s.structural_compiles, s.specialisations, s.frames);
+        };
+        const bool news = seen(picture) != seen(picture_);
+        if (picture.serial != picture_.serial) ++pictures_;
+        picture_ = std::move(picture);
+        return news;
+    }
+
+    void frame() {
+        window_.begin_frame();
+        ui_.report.begin_frame();
+        // A gesture lasts while something is held or typed into; every other frame may begin a new one.
+        if (!held_) {
+            gesture_ = ++last_gesture_;
+            gesture_edited_ = false;
+        }
+        if (window_.should_close()) {
+            window_.keep_open();
+            files_.quit();
+        }
+        for (const auto& file : window_.take_dropped_files()) files_.open(file);
+        keyboard();
+        if (document_.generation() != shown_document_) show_new_document();
+
+        const glm::vec2 size(window_.size());
+        const LayoutResult result = layout_.draw(ui_, {size.x, size.y}, document_, picture_, files_.error(),
+                                                 [&](CommandId id) { return enabled(id); });
+        carry_out(result.edits, gesture_);
+        carry_out_camera(result.viewport);
+        if (result.dismissed) files_.show_error("");
+        if (result.command) perform(*result.command);
+        files_.draw(ui_);
+        shortcut_list(ui_);
+        held_ = ImGui::IsAnyItemActive();
+        interacting_ = (held_ && gesture_edited_ && ImGui::IsAnyMouseDown()) || seconds() < wheel_until_;
+        window_.set_title(fmt::format("{}{} - Farfield", document_.saved() ? "" : "* ", document_.name()));
+        window_.end_frame();
+        submit(result.viewport.size);
+    }
+
+    void show_new_document() {
+        shown_document_ = document_.generation();
+        ui_.selection = ui_.inspected = {ObjectType::node, document_.scene().root.id};
+        ui_.view = View::result;
+    }
+
+    void submit(glm::vec2 picture_size) {
+        // While a splitter moves, the old picture is stretched.
+        const bool splitting = held_ && !gesture_edited_;
+        if (size_.x == 0 || !splitting) size_ = glm::max(glm::ivec2(picture_size * window_.pixels_per_unit()), 1);
+        const auto wanted = std::tuple(document_.revision(), size_.x, size_.y, ui_.view, interacting_);
+        if (wanted == submitted_) return;
+        submitted_ = wanted;
+        render_.submit({document_.snapshot(), size_, ui_.view, interacting_, frames_until_rest});
+    }
+
+    void carry_out(const Edits& edits, unsigned gesture) {
+        for (const Edit& edit : edits) {
+            try {
+                const ObjectRef next = selection_after(edit);
+                const Id id = document_.apply(edit, gesture);
+                gesture_edited_ = true;
+                ui_.selection = next;
+                if (std::holds_alternative<InsertNode>(edit)) ui_.selection = {ObjectType::node, ui_.reveal = id};
+                if (std::holds_alternative<AddMaterial>(edit)) ui_.selection = {ObjectType::material, id};
+                if (std::holds_alternative<AddLight>(edit)) ui_.selection = {ObjectType::light, id};
+                if (const auto* moved = std::get_if<MoveNode>(&edit)) ui_.reveal = moved->node;
+            } catch (const EditError& error) {
+                files_.show_error(error.what());
+            }
+        }
+    }
+
+    void carry_out_camera(const ViewportResult& viewport) {
+        if (!viewport.wheel) return carry_out(viewport.edits, gesture_);
+        if (seconds() > wheel_until_) wheel_gesture_ = ++last_gesture_;
+        wheel_until_ = seconds() + wheel_rest;
+        carry_out(viewport.edits, wheel_gesture_);
+    }
+
+    /// What is selected once `edit` is done: a neighbour of a removed node, otherwise the same as before.
+    ObjectRef selection_after(const Edit& edit) const {
+        const auto* removed = std::get_if<RemoveNode>(&edit);
+        const Node* parent = removed ? find_parent(document_.scene(), removed->node) : nullptr;
+        if (!parent) return ui_.selection;
+        const auto& siblings = parent->children;
+        const auto it = std::find_if(siblings.begin(), siblings.end(), [&](const Node& n) { return n.id == removed->node; });
+        if (it + 1 != siblings.end()) return {ObjectType::node, (it + 1)->id};
+        if (it != siblings.begin()) return {ObjectType::node, (it - 1)->id};
+        return {ObjectType::node, parent->id};
+    }
+
+    bool enabled(CommandId id) const {
+        const Scene& scene = document_.scene();
+        switch (id) {
+            case CommandId::undo: return document_.history().can_undo();
+            case CommandId::redo: return document_.history().can_redo();
+            case CommandId::duplicate: return !duplicate_selection(ui_, scene).empty();
+            case CommandId::remove: return !delete_selection(ui_, scene).empty();
+            case CommandId::move_up: return !shift_selection(ui_, scene, -1).empty();
+            case CommandId::move_down: return !shift_selection(ui_, scene, 1).empty();
+            case CommandId::rename: return ui_.selection.id != 0 && exists(scene, ui_.selection);
+            default: return true;
+        }
+    }
+
+    void perform(CommandId id) {
+        const Scene& scene = document_.scene();
+        switch (id) {
+            case CommandId::create: files_.create(); break;
+            case CommandId::open: files_.open(); break;
+            case CommandId::save: files_.save(); break;
+            case CommandId::save_as: files_.save_as(); break;
+            case CommandId::quit: files_.quit(); break;
+            case CommandId::undo: document_.undo(); break;
+            case CommandId::redo: document_.redo(); break;
+            case CommandId::add: ui_.open_add = true; break;
+            case CommandId::duplicate: carry_out(duplicate_selection(ui_, scene), 0); break;
+            case CommandId::rename: ui_.focus_name = true; break;
+            case CommandId::remove: carry_out(delete_selection(ui_, scene), 0); break;
+            case CommandId::move_up: carry_out(shift_selection(ui_, scene, -1), 0); break;
+            case CommandId::move_down: carry_out(shift_selection(ui_, scene, 1), 0); break;
+            case CommandId::statistics: ui_.show_statistics = !ui_.show_statistics; break;
+            case CommandId::shortcuts: ui_.show_shortcuts = !ui_.show_shortcuts; break;
+        }
+    }
+
+    void keyboard() {
+        const bool asked = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+        for (const KeyPress& press : window_.take_keys()) {
+            // While something is typed or held, or a popup is open, keys belong to that; but saving never has to wait.
+            const auto command = command_for(press);
+            const bool busy = ImGui::GetIO().WantTextInput || (held_ && ImGui::IsAnyMouseDown());
+            if (asked || (busy && command != CommandId::save)) continue;
+            if (const auto view = view_for(press)) ui_.view = *view;
+            else if (command && enabled(*command)) perform(*command);
+        }
+    }
+
+    std::string selection_name() const {
+        const Scene& scene = document_.scene();
+        switch (ui_.selection.type) {
+            case ObjectType::node:
+                if (const Node* node = find_node(scene, ui_.selection.id)) return display_name(*node);
+                return "";
+            case ObjectType::material:
+                if (const Material* material = find_material(scene, ui_.selection.id)) return material->name;
+                return "";
+            case ObjectType::light:
+                if (const Light* light = find_light(scene, ui_.selection.id)) return light->name;
+                return "";
+            case ObjectType::sky: return "Sky";
+            case ObjectType::camera: return "Camera";
+            case ObjectType::settings: return "Settings";
+        }
+        return "";
+    }
+
+    void write_report() {
+        ui_.report.write({picture_.statistics, document_.revision(), pictures_, document_.saved(), document_.file().string(),
+                          files_.error().empty() ? picture_.error : files_.error(), selection_name()},
+                         seconds());
+    }
+
+    // In order of life: the renderer's context goes before the window it shares with.
+    Window window_;
+    RenderThread render_;
+    Document document_;
+    FileActions files_{document_};
+    Ui ui_;
+    Layout layout_;
+    RenderedPicture picture_;
+    std::uint64_t pictures_ = 0;
+
+    unsigned last_gesture_ = 0, gesture_ = 0, wheel_gesture_ = 0;
+    double wheel_until_ = 0.0;
+    bool held_ = false;            ///< some control has the mouse or the keyboard
+    bool gesture_edited_ = false;  ///< and has changed the scene
+    bool interacting_ = false;
+    glm::ivec2 size_{0};
+    std::tuple<std::uint64_t, int, int, View, bool> submitted_{};
+    std::uint64_t shown_document_ = 0;  ///< its generation
+};
+
+}  // namespace
+
+int run_editor(const EditorOptions& options) {
+    Editor editor(options);
+    editor.run();
+    return 0;
+}
+
+}  // namespace farfield

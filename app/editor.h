@@ -1,0 +1,17 @@
+// The editor: a window in which a scene is built and lit.
+#pragma once
+
+#include <filesystem>
+
+namespace farfield {
+
+struct EditorOptions {
+    std::filesystem::path scene;   ///< empty: a new scene
+    std::filesystem::path report;  ///< where to write what tests need to know; empty: nowhere
+    int width = 1440, height = 900;
+};
+
+/// Runs until the window is closed; returns the exit status. Throws ContextError when no window can be opened.
+int run_editor(const EditorOptions& options);
+
+}  // namespace farfield

@@ -1,0 +1,29 @@
+// What the menus and the keyboard can ask for, in one table: menus, shortcuts and the list on F1 read it.
+#pragma once
+
+#include "app/window.h"
+#include "ui/ui.h"
+
+#include <functional>
+#include <optional>
+
+namespace farfield {
+
+enum class CommandId {
+    create, open, save, save_as, quit,
+    undo, redo, add, duplicate, rename, remove, move_up, move_down,
+    statistics, shortcuts,
+};
+
+/// The command on a key, if any.
+std::optional<CommandId> command_for(const KeyPress& press);
+/// The view on a number key, if any.
+std::optional<View> view_for(const KeyPress& press);
+
+/// Draws the menus inside an open menu bar. `enabled` says what can be done now.
+std::optional<CommandId> command_menus(Ui& ui, const std::function<bool(CommandId)>& enabled);
+
+/// The window that lists keys and mouse, while ui.show_shortcuts.
+void shortcut_list(Ui& ui);
+
+}  // namespace farfield

@@ -1,0 +1,48 @@
+// New, open, save and quit, with the question before unsaved work is lost.
+#pragma once
+
+#include "app/document.h"
+#include "app/file_dialog.h"
+
+#include <functional>
+#include <string>
+
+namespace farfield {
+
+class FileActions {
+public:
+    explicit FileActions(Document& document) : document_(document) {}
+
+    void create();
+    void open();
+    void open(const std::filesystem::path& file);
+    void save();
+    void save_as();
+    void quit();
+
+    /// Draws what is being asked, if anything, and carries out the answer.
+    void draw(Ui& ui);
+
+    bool quits() const { return quits_; }
+    /// Shown until the next action or until dismissed.
+    const std::string& error() const { return error_; }
+    void show_error(std::string error) { error_ = std::move(error); }
+
+private:
+    using Action = std::function<void()>;
+
+    /// Does it at once, or after the user agreed to lose or save what is unsaved.
+    void unless_unsaved(Action action);
+    void load(const std::filesystem::path& file);
+    bool write(const std::filesystem::path& file);
+
+    Document& document_;
+    FileDialog dialog_;
+    FileDialog::Mode mode_ = FileDialog::Mode::open;
+    Action waiting_;  ///< for the answer about unsaved work
+    Action after_save_;
+    bool ask_ = false, quits_ = false;
+    std::string error_;
+};
+
+}  // namespace farfield

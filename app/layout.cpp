@@ -1,0 +1,131 @@
+#include "app/layout.h"
+
+#include "ui/inspector_panel.h"
+#include "ui/objects_panel.h"
+#include "ui/settings_panel.h"
+#include "ui/tree_panel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace farfield {
+namespace {
+
+/// A child window without padding at a fixed place; `draw` fills it.
+template <class Draw>
+void panel(const char* name, ImVec2 low, ImVec2 size, Draw draw) {
+    ImGui::SetCursorScreenPos(low);
+    ImGui::BeginChild(name, size, false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+    draw();
+    ImGui::EndChild();
+}
+
+/// What is wrong, over the full width below the menu. Returns its height; sets `dismissed` when the user has read it.
+float message_bar(Ui& ui, ImVec2 low, float width, const std::string& message, bool can_dismiss, bool& dismissed) {
+    if (message.empty()) return 0.0f;
+    const float pad = ui.theme.px(10.0f), button = can_dismiss ? ui.theme.px(76.0f) : 0.0f;
+    const float room = width - 3.0f * pad - button;
+    const ImVec2 text = ImGui::CalcTextSize(message.c_str(), nullptr, false, room);
+    // A compiler's message can be long: some lines of it are shown, the rest scrolls.
+    const float lines = std::min(text.y, 6.0f * ImGui::GetTextLineHeight());
+    const float height = std::max(lines, ImGui::GetFrameHeight()) + 0.8f * pad;
+    ImGui::SetCursorScreenPos(low);
+    ImGui::PushStyleColor(ImGuiCol_ChildBg, ui.theme.error_background);
+    ImGui::BeginChild("message", {width, height});
+    ui.report.rectangle("message", "", low, {low.x + width, low.y + height});
+    ImGui::SetCursorPos({pad, (height - lines) * 0.5f});
+    ImGui::BeginChild("text", {room, lines});
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(message.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndChild();
+    if (can_dismiss) {
+        ImGui::SetCursorPos({width - pad - button, (height - ImGui::GetFrameHeight()) * 0.5f});
+        dismissed = ImGui::Button("Dismiss", {button, 0.0f});
+        ui.report.item("message", "dismiss");
+    }
+    ImGui::EndChild();
+    ImGui::PopStyleColor();
+    return height;
+}
+
+void status_line(const Ui& ui, ImVec2 low, ImVec2 size, const Document& document, const RenderedPicture& picture) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    ImFont* font = ui.theme.small_font;
+    draw.AddRectFilled(low, {low.x + size.x, low.y + size.y}, ImGui::GetColorU32(ImGuiCol_MenuBarBg));
+    const float y = low.y + (size.y - font->FontSize) * 0.5f, pad = ui.theme.px(10.0f);
+    const Scene& scene = document.scene();
+    const int nodes = count_nodes(scene.root) - 1;
+    std::string right = fmt::format("{} {}   {} {}", nodes, nodes == 1 ? "node" : "nodes", picture.statistics.samples,
+                                    picture.statistics.samples == 1 ? "sample" : "samples");
+    const float width = font->CalcTextSizeA(font->FontSize, 1e6f, 0.0f, right.c_str()).x;
+    const std::vector<std::string> steps = document.history().steps();
+    const std::string left = steps.empty() ? "Left drag: orbit    Shift + drag: pan    Wheel: zoom    F1: all keys"
+                                           : "Last step: " + steps.back();
+    draw.PushClipRect(low, {low.x + size.x - width - 2.0f * pad, low.y + size.y}, true);
+    draw.AddText(font, font->FontSize, {low.x + pad, y}, ui.theme.dim, left.c_str());
+    draw.PopClipRect();
+    draw.AddText(font, font->FontSize, {low.x + size.x - width - pad, y}, ui.theme.dim, right.c_str());
+}
+
+void append(Edits& to, Edits from) { to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end())); }
+
+}  // namespace
+
+Layout::Layout(const Theme& theme)
+    : left_(theme.px(250.0f)), right_(theme.px(336.0f)), objects_(theme.px(238.0f)), settings_(theme.px(246.0f)) {}
+
+void Layout::draw_panels(Ui& ui, ImVec2 low, ImVec2 size, const Scene& scene, const RenderedPicture& picture,
+                         LayoutResult& result) {
+    const float bar = ui.theme.px(5.0f), least = ui.theme.px(110.0f);
+    left_ = std::floor(std::clamp(left_, ui.theme.px(190.0f), size.x * 0.38f));
+    right_ = std::floor(std::clamp(right_, ui.theme.px(290.0f), std::max(size.x * 0.45f, ui.theme.px(290.0f))));
+    objects_ = std::floor(std::clamp(objects_, least, std::max(size.y - least, least)));
+    settings_ = std::floor(std::clamp(settings_, least, std::max(size.y - least, least)));
+    const float right_x = low.x + size.x - right_;
+    const float tree_height = size.y - objects_ - bar, inspector_height = size.y - settings_ - bar;
+
+    panel("tree", low, {left_, tree_height}, [&] { append(result.edits, tree_panel(ui, scene)); });
+    panel("objects", {low.x, low.y + tree_height + bar}, {left_, objects_}, [&] { append(result.edits, objects_panel(ui, scene)); });
+    panel("viewport", {low.x + left_ + bar, low.y}, {size.x - left_ - right_ - 2.0f * bar, size.y},
+          [&] { result.viewport = viewport(ui, scene, picture); });
+    panel("inspector", {right_x, low.y}, {right_, inspector_height}, [&] { append(result.edits, inspector_panel(ui, scene)); });
+    panel("settings", {right_x, low.y + inspector_height + bar}, {right_, settings_},
+          [&] { append(result.edits, settings_panel(ui, scene)); });
+
+    left_ += splitter(ui, "left", {low.x + left_, low.y}, {bar, size.y});
+    right_ -= splitter(ui, "right", {right_x - bar, low.y}, {bar, size.y});
+    objects_ -= splitter(ui, "objects", {low.x, low.y + tree_height}, {left_, bar});
+    settings_ -= splitter(ui, "settings", {right_x, low.y + inspector_height}, {right_, bar});
+}
+
+LayoutResult Layout::draw(Ui& ui, ImVec2 size, const Document& document, const RenderedPicture& picture,
+                          const std::string& message, const std::function<bool(CommandId)>& enabled) {
+    LayoutResult result;
+    ImGui::SetNextWindowPos({0.0f, 0.0f});
+    ImGui::SetNextWindowSize(size);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
+    ImGui::Begin("main", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_MenuBar | ImGuiWindowFlags_NoScrollWithMouse);
+    ImGui::PopStyleVar(3);
+    if (ImGui::BeginMenuBar()) {
+        result.command = command_menus(ui, enabled);
+        ImGui::EndMenuBar();
+    }
+    ImVec2 low{0.0f, ImGui::GetFrameHeight()};
+    // A message about the document can be put away; one about the picture stays as long as it is true.
+    const bool about_picture = message.empty();
+    low.y += message_bar(ui, low, size.x, about_picture ? picture.error : message, !about_picture, result.dismissed);
+    const float status = ui.theme.px(22.0f);
+    draw_panels(ui, low, {size.x, std::max(size.y - low.y - status, ui.theme.px(300.0f))}, document.scene(), picture, result);
+    status_line(ui, {0.0f, size.y - status}, {size.x, status}, document, picture);
+    ImGui::End();
+    return result;
+}
+
+}  // namespace farfield

@@ -1,0 +1,75 @@
+#include "app/viewport.h"
+
+#include "app/camera_control.h"
+#include "ui/statistics_panel.h"
+
+#include <cmath>
+#include <cstdint>
+
+namespace farfield {
+namespace {
+
+void centred_text(const Ui& ui, ImVec2 low, ImVec2 high, float line, const char* text, ImU32 color) {
+    const ImVec2 size = ImGui::CalcTextSize(text);
+    const ImVec2 at{std::floor((low.x + high.x - size.x) * 0.5f), std::floor((low.y + high.y - size.y) * 0.5f + line * size.y * 1.5f)};
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float pad = ui.theme.px(8.0f);
+    draw.AddRectFilled({at.x - pad, at.y - pad * 0.5f}, {at.x + size.x + pad, at.y + size.y + pad * 0.5f}, ui.theme.overlay, pad * 0.5f);
+    draw.AddText(at, color, text);
+}
+
+Edits move_camera(const Scene& scene, float height, bool& wheel) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const glm::vec2 drag(io.MouseDelta.x, io.MouseDelta.y);
+    Camera camera = scene.camera;
+    if (ImGui::IsItemActive() && drag != glm::vec2(0.0f)) {
+        const bool pan = ImGui::IsMouseDown(ImGuiMouseButton_Middle) || io.KeyShift;
+        camera = pan ? panned(camera, drag, height) : orbited(camera, drag, height);
+    }
+    if (ImGui::IsItemHovered() && io.MouseWheel != 0.0f) {
+        camera = zoomed(camera, io.MouseWheel);
+        wheel = true;
+    }
+    return camera_edits(scene.camera, camera);
+}
+
+}  // namespace
+
+ViewportResult viewport(Ui& ui, const Scene& scene, const RenderedPicture& picture) {
+    const ImVec2 low = ImGui::GetCursorScreenPos();
+    ImVec2 size = ImGui::GetContentRegionAvail();
+    size = {std::floor(std::max(size.x, 16.0f)), std::floor(std::max(size.y, 16.0f))};
+    const ImVec2 high{low.x + size.x, low.y + size.y};
+    ViewportResult result;
+    result.size = {size.x, size.y};
+
+    // Row 0 of the texture is the top of the picture, as ImGui has it.
+    if (picture.texture != 0) ImGui::Image((ImTextureID)static_cast<std::intptr_t>(picture.texture), size);
+    ImGui::SetCursorScreenPos(low);
+    ImGui::InvisibleButton("picture", size, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
+    ui.report.item("viewport", "");
+    result.edits = move_camera(scene, size.y, result.wheel);
+    if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_Arrow);
+
+    if (is_empty(scene.root)) {
+        centred_text(ui, low, high, -0.5f, "There is no shape in the scene yet", ui.theme.text);
+        centred_text(ui, low, high, 0.7f, "Press + Add in the Scene panel, or A, to put in a first one", ui.theme.dim);
+    } else if (picture.texture == 0 && picture.error.empty()) {
+        centred_text(ui, low, high, 0.0f, "Preparing the first picture...", ui.theme.text);
+    }
+    const float margin = ui.theme.px(8.0f);
+    if (ui.view != View::result) {
+        const ViewInfo& view = views()[static_cast<std::size_t>(ui.view)];
+        const ImVec2 text = ImGui::CalcTextSize(view.label);
+        const ImVec2 at{low.x + 2.0f * margin, low.y + 1.5f * margin};
+        ImDrawList& draw = *ImGui::GetWindowDrawList();
+        draw.AddRectFilled({at.x - margin, at.y - margin * 0.5f}, {at.x + text.x + margin, at.y + text.y + margin * 0.5f},
+                           ui.theme.overlay, margin * 0.5f);
+        draw.AddText(at, ui.theme.accent, view.label);
+    }
+    if (ui.show_statistics && picture.texture != 0)
+        statistics_overlay(ui, picture.statistics, {high.x - margin, low.y + margin}, size.y - 2.0f * margin);
+    return result;
+}
+
+}  // namespace farfield

@@ -1,0 +1,64 @@
+// The window: GLFW, OpenGL and Dear ImGui behind one object. Lives on the main thread.
+#pragma once
+
+#include "renderer/context.h"
+
+#include <glm/vec2.hpp>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+struct GLFWwindow;
+
+namespace farfield {
+
+/// A key that went down. Letters and digits are named by their capital character in the user's keyboard layout; other
+/// keys by GLFW's constants, all of which are above 255.
+struct KeyPress {
+    int key;
+    bool ctrl, shift, alt;
+};
+
+class Window {
+public:
+    /// Throws ContextError when there is no display or no OpenGL 4.3.
+    Window(glm::ivec2 size, const std::string& title);
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    /// A context for another thread that shares objects with this one. It must be gone before the window.
+    std::unique_ptr<Context> make_shared_context();
+
+    /// Waits for input, `seconds` at most. True when something arrived since the last call.
+    bool wait(double seconds);
+    void begin_frame();
+    void end_frame();
+
+    void set_title(const std::string& title);
+    glm::ivec2 size() const;            ///< in screen coordinates, as the mouse has
+    glm::vec2 pixels_per_unit() const;  ///< framebuffer pixels for each screen coordinate
+    float density() const;              ///< of the display: 1 at 96 dpi
+    bool should_close() const;
+    void keep_open();  ///< answers a request to close with no
+
+    std::vector<KeyPress> take_keys();
+    std::vector<std::filesystem::path> take_dropped_files();
+
+private:
+    struct Input {
+        bool arrived = true;
+        std::vector<KeyPress> keys;
+        std::vector<std::filesystem::path> dropped;
+    };
+    static Input& input_of(GLFWwindow* window);
+    void install_callbacks();
+
+    GLFWwindow* window_ = nullptr;
+    Input input_;
+    std::string title_;
+};
+
+}  // namespace farfield
