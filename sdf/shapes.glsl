@@ -137,14 +137,13 @@ vec3 twist(vec3 p, float rate) {
     return vec3(c * p.x + s * p.z, p.y, c * p.z - s * p.x);
 }
 
-// A bound of the distance to twisted content. Within radius s the twist stretches by at most
-// (k s + sqrt(k² s² + 4)) / 2 with k = |rate|. Either the surface is farther than reach, or the way there stays within
-// s + reach; so the distance scaled for s + reach, and no more than reach, is safe everywhere.
+// A bound of the distance to twisted content. Within radius s of the axis the twist stretches by at most
+// (k s + sqrt(k² s² + 4)) / 2 <= 1 + k s with k = |rate|. A path of length r from p stays within radius s + r; so r is safe
+// where (1 + k (s + r)) r <= |d|, and this is the largest such r.
 float twist_distance(float d, vec3 p, float rate) {
     float k = abs(rate);
-    float reach = 0.25f / max(k, 1e-6f);
-    float ks = k * (length(vec2(p.x, p.z)) + reach);
-    return clamp(d * 2.0f / (ks + sqrt(ks * ks + 4.0f)), -reach, reach);
+    float b = 1.0f + k * length(vec2(p.x, p.z));
+    return 2.0f * d / (b + sqrt(b * b + 4.0f * k * abs(d)));
 }
 
 // ---- distance --------------------------------------------------------------------------------------------------------
