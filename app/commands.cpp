@@ -111,7 +111,8 @@ int run_bench(const BenchOptions& options) {
                options.scene.string(), count_nodes(scene.root), renderer.statistics().device, context->name(),
                options.size.x, options.size.y, scene.settings.samples, scene.settings.bounces);
 
-    for (const Tier tier : {Tier::live, Tier::specialised}) {
+    for (const Tier tier : {Tier::specialised, Tier::live}) {
+        if (tier == Tier::live && !options.live) break;
         const char* name = tier == Tier::live ? "live" : "specialised";
         frame.tier = tier;
         frame.counting = false;

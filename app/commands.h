@@ -43,6 +43,7 @@ int run_glsl(const GlslOptions& options);
 struct BenchOptions {
     std::filesystem::path scene;
     glm::ivec2 size{512, 512};
+    bool live = false;  ///< the live tier too
     int frames = 5;  ///< measured, after one that is not
     ContextKind context = ContextKind::automatic;
     Overrides overrides;

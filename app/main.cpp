@@ -90,6 +90,7 @@ int run(int argc, char** argv) {
     CLI::App* bench_command = app.add_subcommand("bench", "Time per pass, evaluations per ray, compile time");
     bench_command->add_option("SCENE", bench.scene, "Scene file")->required();
     bench_command->add_option("--frames", bench.frames, "Frames to measure, default 5")->check(CLI::Range(1, 10'000));
+    bench_command->add_flag("--live", bench.live, "Also the tier that reads its numbers from a parameter block");
     add_common(*bench_command, bench.size, bench.context, bench.overrides);
 
     try {

@@ -19,7 +19,8 @@ struct RenderRequest {
     std::shared_ptr<const Scene> scene;  ///< null: nothing is rendered
     glm::ivec2 size{0};                  ///< pixels
     View view = View::result;
-    bool interacting = false;  ///< a hand is moving something: stay on the program that needs no recompile
+    Id tuned = 0;              ///< the node whose parameters are likely to be moved next: the selected one
+    bool interacting = false;  ///< a hand is moving something: quick pictures, smaller if they must be
     int max_frames = 0;        ///< stop after so many accumulated frames; 0: go on for ever
 };
 

@@ -89,11 +89,11 @@ Renderer::Renderer() {
 }
 
 bool Renderer::update(const Scene& scene, const FrameOptions& options) {
-    programs_.select(scene, options.tier);  // may throw; nothing has changed until here
-    statistics_.structural_compiles = programs_.compiled(Tier::live);
-    statistics_.specialisations = programs_.compiled(Tier::specialised);
+    programs_.select(scene, options.tier, options.tuned);  // may throw; nothing has changed until here
+    statistics_.structural_compiles = programs_.structural_compiles();
+    statistics_.specialisations = programs_.other_compiles();
     statistics_.compile_milliseconds = programs_.last_compile_milliseconds();
-    statistics_.specialised = options.tier == Tier::specialised;
+    statistics_.specialised = options.tier == Tier::specialised && options.tuned == 0;
 
     std::string transport = transport_bytes(scene, options);
     const bool changed = transport != transport_;
@@ -140,7 +140,7 @@ void Renderer::begin_frame() {
     in_frame_ = true;
     batch_index_ = 0;
     sample_ = -1;
-    frame_samples_ = scene_.settings.samples;
+    frame_samples_ = options_.samples > 0 ? options_.samples : scene_.settings.samples;
     frame_start_ = std::chrono::steady_clock::now();
     timers_.begin_frame();
     const FrameRecord record = frame_record(scene_, options_, completed_cameras_);
@@ -151,7 +151,7 @@ void Renderer::begin_frame() {
 
 bool Renderer::step() {
     if (!in_frame_) begin_frame();
-    frame_.bind_uniform(0);
+    frame_.bind_uniform(binding::frame);
     targets_->bind();
     batch_.bind();
     materials_.bind_storage(binding::materials);
@@ -210,7 +210,7 @@ void Renderer::render_frame() {
 }
 
 void Renderer::synthesise(View view) {
-    frame_.bind_uniform(0);
+    frame_.bind_uniform(binding::frame);
     targets_->bind();
     const gl::Texture& filtered = filter_pass_.run(*targets_, scene_.settings.blur_levels);
     synthesis_pass_.run(*targets_, filtered, static_cast<int>(view), scene_.settings.method, completed_cameras_);

@@ -23,6 +23,8 @@ struct FrameOptions {
     View view = View::result;
     std::uint32_t seed = 0;
     Tier tier = Tier::specialised;  ///< live: no parameter edit needs a new program
+    Id tuned = 0;                   ///< node with live parameters in the specialised tier
+    int samples = 0;                ///< hemisphere rays per pixel and frame; 0: the scene's setting
     bool counting = false;          ///< count rays and evaluations; costs a little
 };
 
@@ -34,8 +36,8 @@ public:
     /// Takes over the scene and options, decides what stays valid and compiles where the structure is new. Throws ShaderError and
     /// goes on with the last good scene. True when accumulated samples were discarded.
     bool update(const Scene& scene, const FrameOptions& options);
-    /// Whether `update` with this scene and tier would have to compile.
-    bool needs_compile(const Scene& scene, Tier tier) const { return !programs_.has(scene, tier); }
+    /// Whether `update` with these would have to compile.
+    bool needs_compile(const Scene& scene, Tier tier, Id tuned = 0) const { return !programs_.has(scene, tier, tuned); }
 
     /// One bounded piece of the current frame. True when that finished the frame.
     bool step();

@@ -18,8 +18,8 @@ struct Statistics {
     double frames_per_second = 0.0;   ///< smoothed
     int frames = 0;                   ///< accumulated since the last reset
     int samples = 0;                  ///< hemisphere rays per pixel accumulated since the last reset
-    int structural_compiles = 0;      ///< programs made because the structure changed; a parameter edit never adds one
-    int specialisations = 0;          ///< programs made with literals once the hand rested
+    int structural_compiles = 0;      ///< programs made for a structure not met before; a parameter edit never adds one
+    int specialisations = 0;          ///< further programs for known structures, made once the hand rested
     double compile_milliseconds = 0.0;  ///< of the last program
     bool specialised = false;           ///< the picture comes from the program with literals
     std::uint64_t rays = 0;             ///< traced in the last frame, where they are counted (FrameOptions)

@@ -6,7 +6,7 @@
 #include "sdf/codegen.h"
 
 #include <list>
-#include <memory>
+#include <set>
 #include <string>
 
 namespace farfield {
@@ -15,37 +15,35 @@ class TracePrograms {
 public:
     TracePrograms();
 
-    /// Makes the program of `scene` in `tier` current for `trace`; compiles it if the cache has none. When that fails it throws
-    /// ShaderError whose message names the node, and the last good program stays.
-    void select(const Scene& scene, Tier tier);
+    /// Makes a program of `scene` (see generate) current for `trace`; compiles it if the cache has none. When that fails it
+    /// throws ShaderError whose message names the node, and the last good program stays.
+    void select(const Scene& scene, Tier tier, Id tuned = 0);
     /// Whether select would find its program in the cache.
-    bool has(const Scene& scene, Tier tier) const;
+    bool has(const Scene& scene, Tier tier, Id tuned = 0) const;
 
     /// Ray buffer to hit buffer, `count` rays from the first. `surfaces`: normal and material too.
     void trace(std::size_t count, bool surfaces, bool counting) const;
 
-    Tier tier() const { return tier_; }
-    int compiled(Tier tier) const { return tier == Tier::live ? live_compiles_ : specialised_compiles_; }
+    int structural_compiles() const { return static_cast<int>(structures_.size()); }
+    int other_compiles() const { return compiles_ - structural_compiles(); }
     double last_compile_milliseconds() const { return compile_milliseconds_; }
-    bool ready() const { return current_ != nullptr; }
 
 private:
     struct Entry {
         std::string key;
         gl::Program program;
     };
-    const gl::Program& compile(const Scene& scene, const GeneratedScene& generated, Tier tier);
+    void compile(const Scene& scene, const GeneratedScene& generated);
 
     std::list<Entry> cache_;  ///< most recently used first
     const gl::Program* current_ = nullptr;
-    Tier tier_ = Tier::live;
     gl::Buffer parameters_{"parameters"};
-    int live_compiles_ = 0;
-    int specialised_compiles_ = 0;
+    std::set<std::size_t> structures_;  ///< hashes of the live code of every scene that was compiled
+    int compiles_ = 0;
     double compile_milliseconds_ = 0.0;
 };
 
 /// The whole text of the trace kernel for a generated scene.
-std::string trace_source(const GeneratedScene& generated, Tier tier);
+std::string trace_source(const GeneratedScene& generated);
 
 }  // namespace farfield

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <map>
 #include <optional>
 
 namespace farfield {
@@ -60,11 +61,47 @@ struct Result {
     std::string material;
 };
 
+/// Which numbers are live, and where their nodes' values stand in the parameter block: translation, inverse rotation by
+/// columns, scale, the kind's parameters, material index.
+class ParameterBlock {
+public:
+    ParameterBlock(Tier tier, Id tuned) : all_(tier == Tier::live), tuned_(tuned) {}
+
+    bool is_live(const Node& n) const { return all_ || n.id == tuned_; }
+    /// Index of the node's first value; both functions of the program share it.
+    std::size_t first(const Node& n, const glm::mat3& inverse_rotation, std::uint32_t material) {
+        const auto [place, fresh] = first_.try_emplace(n.id, values.size());
+        if (!fresh) return place->second;
+        add(n.transform.translate);
+        for (int column = 0; column < 3; ++column) add(inverse_rotation[column]);
+        values.push_back(n.transform.scale);
+        for (std::size_t i = 0; i < n.values.size(); ++i) {
+            const Parameter& parameter = info(n.kind).parameters[i];
+            const glm::vec3 v = to_code_units(parameter, n.values[i]);
+            if (parameter.components() == 1) values.push_back(v.x);
+            else add(v);
+        }
+        values.push_back(static_cast<float>(material));
+        return place->second;
+    }
+
+    std::vector<float> values;
+
+private:
+    void add(glm::vec3 v) { values.insert(values.end(), {v.x, v.y, v.z}); }
+
+    bool all_;
+    Id tuned_;
+    std::map<Id, std::size_t> first_;
+};
+
+constexpr std::size_t scale_offset = 12, parameters_offset = 13;
+
 /// Writes one function body, for the distance alone or for distance and material together.
 class Writer {
 public:
-    Writer(const Scene& scene, Tier tier, bool with_material, std::vector<float>& parameters)
-        : scene_(scene), tier_(tier), with_material_(with_material), parameters_(parameters) {}
+    Writer(const Scene& scene, ParameterBlock& block, bool with_material)
+        : scene_(scene), block_(block), with_material_(with_material) {}
 
     Lines write() {
         Lines body;
@@ -81,55 +118,51 @@ public:
     }
 
 private:
-    /// A value of the parameter block (live) or its literal.
-    std::string number(float v) {
-        if (tier_ == Tier::specialised) return literal(v);
-        parameters_.push_back(v);
-        return fmt::format("parameter({})", parameters_.size() - 1);
-    }
-    std::string vector(glm::vec3 v) {
-        if (tier_ == Tier::specialised) return literal(v);
-        for (int i = 0; i < 3; ++i) parameters_.push_back(v[i]);
-        return fmt::format("parameter3({})", parameters_.size() - 3);
+    /// A node's numbers as they stand in the code: literals, or reads of the parameter block.
+    struct Numbers {
+        std::string point;      ///< p in the node's own frame
+        std::string factor;     ///< brings own distances to the parent's frame: "0.5 * " or nothing
+        std::string arguments;  ///< the parameters as further arguments: ", a, b"
+        std::string material;   ///< the material's index
+        bool hard;              ///< all parameters are known to be zero
+    };
+
+    Numbers numbers(const Node& n, const std::string& p, std::uint32_t index) {
+        const glm::mat3 inverse = glm::transpose(rotation_matrix(n.transform));
+        return block_.is_live(n) ? live_numbers(n, p, block_.first(n, inverse, index)) : literals(n, p, inverse, index);
     }
 
-    /// p in the node's own frame.
-    std::string own_point(const Transform& t, const std::string& p) {
-        const glm::mat3 inverse = glm::transpose(rotation_matrix(t));
-        if (tier_ == Tier::live) {
-            const std::size_t first = parameters_.size();
-            for (int i = 0; i < 3; ++i) parameters_.push_back(t.translate[i]);
-            for (int i = 0; i < 9; ++i) parameters_.push_back(inverse[i / 3][i % 3]);
-            parameters_.push_back(t.scale);
-            return fmt::format("place({}, {})", p, first);
+    static Numbers live_numbers(const Node& n, const std::string& p, std::size_t first) {
+        Numbers numbers{fmt::format("place({}, {})", p, first), fmt::format("parameter({}) * ", first + scale_offset), "", "", false};
+        std::size_t at = first + parameters_offset;
+        for (const Parameter& parameter : info(n.kind).parameters) {
+            const int components = parameter.components();
+            numbers.arguments += fmt::format(fmt::runtime(components == 1 ? ", parameter({})" : ", parameter3({})"), at);
+            at += static_cast<std::size_t>(components);
         }
+        numbers.material = fmt::format("uint(parameter({}))", at);
+        return numbers;
+    }
+
+    static Numbers literals(const Node& n, const std::string& p, const glm::mat3& inverse, std::uint32_t index) {
+        const Transform& t = n.transform;
+        Numbers numbers{p, "", "", fmt::format("{}u", index), true};
+        std::string& q = numbers.point;
         const bool moved = t.translate != glm::vec3(0.0f), turned = inverse != glm::mat3(1.0f), scaled = t.scale != 1.0f;
-        std::string q = moved ? fmt::format("{} - {}", p, literal(t.translate)) : p;
+        if (moved) q = fmt::format("{} - {}", p, literal(t.translate));
         if (moved && (turned || scaled)) q = "(" + q + ")";
         if (turned) q = literal(inverse) + " * " + q;
-        if (scaled) q += " / " + literal(t.scale);
-        return q;
-    }
-    /// The factor that brings own distances to the parent's frame, as "0.5 * " or nothing. Follows own_point.
-    std::string scale_factor(const Transform& t) {
-        if (tier_ == Tier::live) return fmt::format("parameter({}) * ", parameters_.size() - 1);
-        return t.scale == 1.0f ? "" : literal(t.scale) + " * ";
-    }
-
-    /// The parameters as further arguments: ", a, b".
-    std::string arguments(const Node& n, const KindInfo& kind) {
-        std::string text;
-        for (std::size_t i = 0; i < kind.parameters.size(); ++i) {
-            const glm::vec3 v = to_code_units(kind.parameters[i], n.values[i]);
-            text += ", " + (kind.parameters[i].components() == 1 ? number(v.x) : vector(v));
+        if (scaled) {
+            q += " / " + literal(t.scale);
+            numbers.factor = literal(t.scale) + " * ";
         }
-        return text;
-    }
-
-    std::string material(std::uint32_t index) {
-        if (tier_ == Tier::specialised) return fmt::format("{}u", index);
-        parameters_.push_back(static_cast<float>(index));
-        return fmt::format("uint(parameter({}))", parameters_.size() - 1);
+        for (std::size_t i = 0; i < n.values.size(); ++i) {
+            const Parameter& parameter = info(n.kind).parameters[i];
+            const glm::vec3 v = to_code_units(parameter, n.values[i]);
+            numbers.arguments += ", " + (parameter.components() == 1 ? literal(v.x) : literal(v));
+            numbers.hard = numbers.hard && v == glm::vec3(0.0f);
+        }
+        return numbers;
     }
 
     std::string comment(const Node& n) const {
@@ -144,49 +177,48 @@ private:
     }
 
     Result primitive(const Node& n, const KindInfo& kind, const std::string& p, std::uint32_t index) {
-        const std::string point = own_point(n.transform, p);
-        const std::string factor = scale_factor(n.transform);
-        const std::string call = fmt::format("{}{}({}{})", factor, kind.function, point, arguments(n, kind));
-        return {call, with_material_ ? material(index) : ""};
+        const Numbers own = numbers(n, p, index);
+        return {fmt::format("{}{}({}{})", own.factor, kind.function, own.point, own.arguments),
+                with_material_ ? own.material : ""};
     }
 
     Result group(const Node& n, const KindInfo& kind, const std::string& p, std::uint32_t index, Lines& out,
                  const std::string& indent) {
         const int id = next_group_++;
-        const std::string q = fmt::format("p{}", id), d = fmt::format("d{}", id);
+        const std::string d = fmt::format("d{}", id);
         const Result result{d, with_material_ ? fmt::format("m{}", id) : ""};
         out.add(indent + "// " + comment(n), n.id);
 
-        std::string own = own_point(n.transform, p);
-        const std::string factor = scale_factor(n.transform);
-        if (own != p) {
-            out.add(fmt::format("{}vec3 {} = {};", indent, q, own), n.id);
-            own = q;
+        const Numbers num = numbers(n, p, index);
+        const std::string& args = num.arguments;
+        std::string own = p;
+        if (num.point != p) {
+            own = fmt::format("p{}", id);
+            out.add(fmt::format("{}vec3 {} = {};", indent, own, num.point), n.id);
         }
-        std::string args = arguments(n, kind);
         switch (kind.role) {
-            case Role::combine: fold(n, kind, args, own, index, result, out, indent); break;
+            case Role::combine: fold(n, kind, num, own, index, result, out, indent); break;
             case Role::distance:
-                fold(n, kind, args, own, index, result, out, indent);
+                fold(n, kind, num, own, index, result, out, indent);
                 out.add(fmt::format("{}{} = {}({}{});", indent, d, kind.function, d, args), n.id);
                 break;
             case Role::domain: {
                 const std::string moved = fmt::format("q{}", id);
                 out.add(fmt::format("{}vec3 {} = {}({}{});", indent, moved, kind.function, own, args), n.id);
-                fold(n, kind, args, moved, index, result, out, indent);
+                fold(n, kind, num, moved, index, result, out, indent);
                 if (kind.secondary)
                     out.add(fmt::format("{}{} = {}({}, {}{});", indent, d, kind.secondary, d, own, args), n.id);
                 break;
             }
-            case Role::repeat: repeat(n, kind, args, own, index, result, id, out, indent); break;
+            case Role::repeat: repeat(n, kind, num, own, index, result, id, out, indent); break;
             case Role::primitive: break;
         }
-        if (!factor.empty()) out.add(fmt::format("{}{} = {}{};", indent, d, factor, d), n.id);
+        if (!num.factor.empty()) out.add(fmt::format("{}{} = {}{};", indent, d, num.factor, d), n.id);
         return result;
     }
 
     /// Declares the result and folds the children into it, one line each.
-    void fold(const Node& n, const KindInfo& kind, const std::string& args, const std::string& p, std::uint32_t index,
+    void fold(const Node& n, const KindInfo& kind, const Numbers& num, const std::string& p, std::uint32_t index,
               const Result& result, Lines& out, const std::string& indent) {
         const std::string& d = result.distance;
         const std::string& m = result.material;
@@ -208,31 +240,28 @@ private:
                     next.distance = e;
                 }
                 const std::string share = kind.role == Role::combine
-                                              ? fmt::format("{}({}, {}{})", kind.secondary, d, next.distance, args)
+                                              ? fmt::format("{}({}, {}{})", kind.secondary, d, next.distance, num.arguments)
                                               : fmt::format("union_weight({}, {}, 0.0)", d, next.distance);
                 out.add(fmt::format("{}{} = blend_materials({}, {}, {});", indent, m, m, next.material, share), child.id);
             }
-            out.add(fmt::format("{}{} = {};", indent, d, combination(n, kind, args, d, next.distance)), child.id,
+            out.add(fmt::format("{}{} = {};", indent, d, combination(kind, num, d, next.distance)), child.id,
                     with_material_ ? "" : name);
         }
     }
 
-    std::string combination(const Node& n, const KindInfo& kind, const std::string& args, const std::string& a,
-                            const std::string& b) const {
+    static std::string combination(const KindInfo& kind, const Numbers& num, const std::string& a, const std::string& b) {
         if (kind.role != Role::combine) return fmt::format("min({}, {})", a, b);
-        bool all_zero = true;
-        for (const glm::vec3& v : n.values) all_zero = all_zero && v == glm::vec3(0.0f);
-        if (tier_ == Tier::specialised && all_zero) return fmt::format(fmt::runtime(kind.when_zero), a, b);
-        return fmt::format("{}({}, {}{})", kind.function, a, b, args);
+        if (num.hard) return fmt::format(fmt::runtime(kind.when_zero), a, b);
+        return fmt::format("{}({}, {}{})", kind.function, a, b, num.arguments);
     }
 
     /// The content becomes a function of its own, called for each cell that can hold the nearest copy.
-    void repeat(const Node& n, const KindInfo& kind, const std::string& args, const std::string& p, std::uint32_t index,
+    void repeat(const Node& n, const KindInfo& kind, const Numbers& num, const std::string& p, std::uint32_t index,
                 const Result& result, int id, Lines& out, const std::string& indent) {
         const std::string& d = result.distance;
         const std::string content = fmt::format("distance_of_copy{}", id), material_of = fmt::format("material_of_copy{}", id);
         Lines body;
-        fold(n, kind, args, "p", index, {"d", with_material_ ? "m" : ""}, body, "    ");
+        fold(n, kind, num, "p", index, {"d", with_material_ ? "m" : ""}, body, "    ");
         functions_.add(with_material_ ? fmt::format("uint {}(vec3 p) {{", material_of) : fmt::format("float {}(vec3 p) {{", content),
                        n.id, "one copy of " + display_name(n));
         functions_.append(body);
@@ -241,15 +270,15 @@ private:
         functions_.add("");
 
         std::string cells;
-        if (tier_ == Tier::live) {
-            cells = fmt::format("{}({})", kind.secondary, args.substr(2));
+        if (block_.is_live(n)) {
+            cells = fmt::format("{}({})", kind.secondary, num.arguments.substr(2));
         } else {
             std::vector<glm::vec3> values;
             for (std::size_t i = 0; i < n.values.size(); ++i) values.push_back(to_code_units(kind.parameters[i], n.values[i]));
             cells = std::to_string(kind.cells(values));
         }
         const std::string loop = fmt::format("{}for (int cell = 0; cell < {}; ++cell)", indent, cells);
-        const std::string copy = fmt::format("{}({}{}, cell)", kind.function, p, args);
+        const std::string copy = fmt::format("{}({}{}, cell)", kind.function, p, num.arguments);
         out.add(fmt::format("{}float {} = {};", indent, d, literal(empty_distance)), n.id);
         if (!with_material_) {
             out.add(fmt::format("{} {} = min({}, {}({}));", loop, d, d, content, copy), n.id);
@@ -267,9 +296,8 @@ private:
     }
 
     const Scene& scene_;
-    Tier tier_;
+    ParameterBlock& block_;
     bool with_material_;
-    std::vector<float>& parameters_;
     Lines functions_;
     int next_group_ = 0;  ///< counts the same in both functions, so that they share the contents of repetitions
     int next_child_ = 0;
@@ -287,15 +315,15 @@ constexpr const char* live_helpers =
 
 }  // namespace
 
-GeneratedScene generate(const Scene& scene, Tier tier) {
+GeneratedScene generate(const Scene& scene, Tier tier, Id tuned) {
     GeneratedScene generated;
-    const Lines distance = Writer(scene, tier, false, generated.parameters).write();
-    // Both functions read one block: the second walk repeats the first one's values and adds the materials' indices.
-    const Lines material = Writer(scene, tier, true, generated.parameters).write();
+    ParameterBlock block(tier, tuned);
+    const Lines distance = Writer(scene, block, false).write();
+    const Lines material = Writer(scene, block, true).write();
 
     Lines all;
     std::string library = used_shapes(distance.key + material.key);
-    if (tier == Tier::live) library += std::string(live_helpers) + "\n";
+    if (!block.values.empty()) library += std::string(live_helpers) + "\n";
     for (std::size_t start = 0; start < library.size();) {
         const std::size_t end = library.find('\n', start);
         all.add(library.substr(start, end - start));
@@ -306,6 +334,7 @@ GeneratedScene generate(const Scene& scene, Tier tier) {
     all.append(material);
     generated.text = std::move(all.text);
     generated.key = std::move(all.key);
+    generated.parameters = std::move(block.values);
     generated.line_nodes = std::move(all.nodes);
     return generated;
 }

@@ -1,7 +1,8 @@
 // Scene tree to GLSL. The text is shown to users, so it reads like hand-written code: one line for each node, its name
-// as comment, nothing but what the scene uses. Two tiers of the same program exist (DESIGN, measured on llvmpipe):
-// `specialised` has every number as a literal, folds identity transforms and hard blends away and marches 4-5 times
-// faster; `live` reads every number from a parameter block, so that no parameter edit needs a new program.
+// as comment, nothing but what the scene uses. Two tiers of the same program exist, because on llvmpipe a number from a
+// buffer costs far more than a literal: `specialised` has literals, so that identity transforms and hard blends fold away;
+// `live` reads every number from a parameter block, so that no parameter edit needs a new program. In between, a specialised
+// program can have one `tuned` node whose numbers are live: what the editor uses while a hand moves them.
 #pragma once
 
 #include "sdf/scene.h"
@@ -15,17 +16,18 @@ enum class Tier { live, specialised };
 
 struct GeneratedScene {
     /// Shape functions used, then `float scene_distance(vec3 p)` and `uint scene_material(vec3 p)` (world frame,
-    /// metres; material code as blend_materials makes it). The live tier also needs `float parameter(int)`.
+    /// metres; material code as blend_materials makes it). With parameters it also needs `float parameter(int)`.
     std::string text;
     /// The code without comments. Equal keys mean equal programs: renaming a node changes the text alone, and in the
     /// live tier no parameter edit changes the key.
     std::string key;
-    /// What `parameter(i)` returns; filled for the live tier only.
+    /// What `parameter(i)` returns; empty when no node is live.
     std::vector<float> parameters;
     /// For each line of `text`, from the first, the node it belongs to; 0 where it belongs to none.
     std::vector<Id> line_nodes;
 };
 
-GeneratedScene generate(const Scene& scene, Tier tier);
+/// `tuned`: a node whose own values, transform and material come from the parameter block in the specialised tier too.
+GeneratedScene generate(const Scene& scene, Tier tier, Id tuned = 0);
 
 }  // namespace farfield

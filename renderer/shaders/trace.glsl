@@ -17,6 +17,7 @@ const float beta = 0.5;
 const float smallest_epsilon = 1e-5;
 
 void main() {
+    load_parameters();
     uint i = gl_GlobalInvocationID.x;
     if (i >= ray_count) return;
     Ray ray = rays[i];

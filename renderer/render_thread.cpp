@@ -1,0 +1,250 @@
+#include "renderer/render_thread.h"
+
+#include "renderer/renderer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+namespace farfield {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A hand that has not moved anything for so long rests: time to make programs.
+constexpr auto rest = std::chrono::milliseconds(250);
+/// What a picture may take while a hand moves something.
+constexpr double interactive_milliseconds = 80.0;
+/// A picture of an unfinished frame is shown after so long.
+constexpr auto longest_wait = std::chrono::milliseconds(150);
+/// Scenes with more nodes get no program with every number live: its compilation takes seconds on llvmpipe (27 nodes 0.8 s,
+/// 43 nodes 1.6 s). They rely on the program with the selected node live.
+constexpr int largest_live_scene = 32;
+
+struct Slot {
+    gl::Texture texture;
+    GLsync fence = nullptr;
+    RenderedPicture picture;
+};
+
+}  // namespace
+
+struct RenderThread::State {
+    std::unique_ptr<Context> context;
+
+    std::mutex mutex;  ///< guards everything down to `held`
+    std::condition_variable wake;
+    std::optional<RenderRequest> next;
+    bool stop = false;
+    std::array<Slot, 3> slots;  ///< one held by the caller, one ready, one to draw into
+    int ready = -1;
+    int held = -1;
+    std::string error;  ///< of the latest request
+    Statistics statistics;
+
+    std::thread thread;
+
+    // The rest belongs to the thread.
+    std::optional<Renderer> renderer;
+    RenderRequest current;
+    FrameOptions options;
+    Clock::time_point request_time, shown_time;
+    std::uint64_t serial = 0;
+    double milliseconds_per_pixel_sample = 0.0;  ///< measured on the last frame; 0: not yet
+    bool unshown = false;                        ///< another view, other settings or a finished frame
+    int shown_samples = 0;
+    bool gave_up = false;                        ///< background compilation failed for this scene: do not try again
+
+    void run();
+    bool wait_for_work();
+    void take_request();
+    void update(Tier tier, Id tuned);
+    bool compile_in_background();
+    void work();
+    void show();
+    bool finished() const {
+        return current.max_frames > 0 && renderer->statistics().frames >= current.max_frames && !current.interacting;
+    }
+    glm::ivec2 picture_size() const;
+};
+
+RenderThread::RenderThread(std::unique_ptr<Context> context) : state_(std::make_unique<State>()) {
+    state_->context = std::move(context);
+    state_->thread = std::thread([state = state_.get()] { state->run(); });
+}
+
+RenderThread::~RenderThread() {
+    {
+        const std::lock_guard lock(state_->mutex);
+        state_->stop = true;
+    }
+    state_->wake.notify_one();
+    state_->thread.join();
+}
+
+void RenderThread::submit(RenderRequest request) {
+    {
+        const std::lock_guard lock(state_->mutex);
+        state_->next = std::move(request);
+    }
+    state_->wake.notify_one();
+}
+
+RenderedPicture RenderThread::acquire() {
+    const std::lock_guard lock(state_->mutex);
+    if (state_->ready >= 0) {
+        state_->held = std::exchange(state_->ready, -1);
+        Slot& slot = state_->slots[static_cast<std::size_t>(state_->held)];
+        glWaitSync(slot.fence, 0, GL_TIMEOUT_IGNORED);
+        glDeleteSync(std::exchange(slot.fence, nullptr));
+    }
+    RenderedPicture picture;
+    if (state_->held >= 0) picture = state_->slots[static_cast<std::size_t>(state_->held)].picture;
+    picture.statistics = state_->statistics;
+    picture.error = state_->error;
+    return picture;
+}
+
+void RenderThread::State::run() {
+    try {
+        context->make_current();
+        renderer.emplace();
+        while (wait_for_work()) work();
+    } catch (const std::exception& failure) {
+        const std::lock_guard lock(mutex);
+        error = std::string("rendering has stopped: ") + failure.what();
+    }
+    // Everything of OpenGL goes while the context is current.
+    renderer.reset();
+    for (Slot& slot : slots) {
+        if (slot.fence) glDeleteSync(slot.fence);
+        slot = {};
+    }
+    context->release();
+}
+
+/// Takes the next request if there is one; sleeps when there is nothing to do. False when the thread shall end.
+bool RenderThread::State::wait_for_work() {
+    std::unique_lock lock(mutex);
+    const bool idle = !current.scene || current.size.x <= 0 || current.size.y <= 0 || (finished() && !unshown);
+    if (idle) wake.wait(lock, [&] { return stop || next; });
+    if (stop) return false;
+    if (!next) return true;
+    current = std::move(*next);
+    next.reset();
+    lock.unlock();
+    take_request();
+    return true;
+}
+
+/// While a hand moves something, so small that a picture with one sample keeps to its time.
+glm::ivec2 RenderThread::State::picture_size() const {
+    if (!current.interacting || milliseconds_per_pixel_sample <= 0.0) return current.size;
+    const double pixels = interactive_milliseconds / (2.0 * milliseconds_per_pixel_sample);  // 2: one sample, and the camera's
+    const double full = static_cast<double>(current.size.x) * current.size.y;
+    int divisor = 1;
+    while (divisor < 8 && full / (divisor * divisor) > pixels) divisor *= 2;
+    return glm::max(current.size / divisor, glm::ivec2(1));
+}
+
+void RenderThread::State::take_request() {
+    request_time = Clock::now();
+    gave_up = false;
+    if (!current.scene || current.size.x <= 0 || current.size.y <= 0) return;
+    const Scene& scene = *current.scene;
+    // Whatever is there already, the fastest first; a structure not met before has to be compiled.
+    if (!renderer->needs_compile(scene, Tier::specialised)) update(Tier::specialised, 0);
+    else if (current.tuned && !renderer->needs_compile(scene, Tier::specialised, current.tuned)) update(Tier::specialised, current.tuned);
+    else if (!renderer->needs_compile(scene, Tier::live)) update(Tier::live, 0);
+    else update(Tier::specialised, 0);
+}
+
+void RenderThread::State::update(Tier tier, Id tuned) {
+    options.size = picture_size();
+    options.view = current.view;
+    options.samples = current.interacting ? 1 : 0;
+    options.tier = tier;
+    options.tuned = tuned;
+    std::string problem;
+    try {
+        renderer->update(*current.scene, options);
+        unshown = true;
+    } catch (const std::exception& failure) {
+        problem = failure.what();
+        gave_up = true;
+    }
+    const std::lock_guard lock(mutex);
+    error = problem;
+    const double rate = statistics.frames_per_second;
+    statistics = renderer->statistics();
+    statistics.frames_per_second = rate;
+}
+
+/// When the hand rests: first the program with literals for the picture, then those that the next edit will need.
+/// True when it compiled something.
+bool RenderThread::State::compile_in_background() {
+    if (current.interacting || gave_up || Clock::now() - request_time < rest) return false;
+    const Scene& scene = *current.scene;
+    const auto missing = [&](Tier tier, Id tuned) { return renderer->needs_compile(scene, tier, tuned); };
+    if (!renderer->statistics().specialised) {
+        update(Tier::specialised, 0);
+        return true;
+    }
+    const bool tuned = current.tuned && find_node(scene, current.tuned) && missing(Tier::specialised, current.tuned);
+    const bool live = !tuned && count_nodes(scene.root) <= largest_live_scene && missing(Tier::live, 0);
+    if (!tuned && !live) return false;
+    update(tuned ? Tier::specialised : Tier::live, tuned ? current.tuned : 0);
+    update(Tier::specialised, 0);
+    return true;
+}
+
+void RenderThread::State::work() {
+    if (!current.scene || current.size.x <= 0 || current.size.y <= 0) return;
+    if (!finished()) {
+        if (compile_in_background()) return;
+        if (renderer->step()) {
+            const Statistics& s = renderer->statistics();
+            const double work_done = static_cast<double>(options.size.x) * options.size.y *
+                                     (1 + (options.samples ? options.samples : current.scene->settings.samples));
+            milliseconds_per_pixel_sample = s.frame_milliseconds / work_done;
+            const std::lock_guard lock(mutex);
+            const double rate = 1e3 / std::max(s.frame_milliseconds, 1e-3);
+            const double smoothed = statistics.frames_per_second > 0.0 ? 0.8 * statistics.frames_per_second + 0.2 * rate : rate;
+            statistics = s;
+            statistics.frames_per_second = smoothed;
+            unshown = true;
+        }
+    }
+    const bool late = renderer->statistics().samples != shown_samples && Clock::now() - shown_time > longest_wait;
+    if (renderer->displayable() && (unshown || late)) show();
+}
+
+void RenderThread::State::show() {
+    unshown = false;
+    shown_samples = renderer->statistics().samples;
+    int free = 0;
+    {
+        const std::lock_guard lock(mutex);
+        while (free == ready || free == held) ++free;
+    }
+    Slot& slot = slots[static_cast<std::size_t>(free)];
+    if (!slot.texture || slot.texture.size() != renderer->size())
+        slot.texture = gl::Texture("picture", GL_RGBA8, renderer->size());
+    renderer->display(slot.texture);
+    if (slot.fence) glDeleteSync(slot.fence);
+    slot.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    glFlush();
+    slot.picture.texture = slot.texture.name();
+    slot.picture.size = renderer->size();
+    slot.picture.serial = ++serial;
+    shown_time = Clock::now();
+    const std::lock_guard lock(mutex);
+    ready = free;
+}
+
+}  // namespace farfield
