@@ -36,7 +36,8 @@ void main() {
         float next = t + stride;
         float d = scene_distance(ray.origin + next * ray.direction);
         ++steps;
-        if (stride <= radius + abs(d)) {
+        // A stretched step that ends inside something is taken back too, or the hit would lie that deep in it.
+        if (stride <= radius + max(d, 0.0)) {
             slope = stride > 0.0 ? mix(clamp((d - radius) / stride, -1.0, 0.9), slope, beta) : -1.0;
             t = next;
             radius = d;
