@@ -8,6 +8,7 @@
 #include "ui/tree_panel.h"
 
 #include <fmt/format.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <chrono>
@@ -44,6 +45,7 @@ public:
           ui_(theme_for(window_), Report(options.report)),
           layout_(ui_.theme) {
         if (!options.scene.empty()) files_.open(options.scene);
+        show_new_document();
     }
 
     void run() {
@@ -82,7 +84,7 @@ private:
         // A gesture lasts while something is held or typed into; every other frame may begin a new one.
         if (!held_) {
             gesture_ = ++last_gesture_;
-            gesture_edited_ = false;
+            gesture_edited_ = gesture_moves_ = false;
         }
         if (window_.should_close()) {
             window_.keep_open();
@@ -90,7 +92,6 @@ private:
         }
         for (const auto& file : window_.take_dropped_files()) files_.open(file);
         keyboard();
-        if (document_.generation() != shown_document_) show_new_document();
 
         const glm::vec2 size(window_.size());
         const LayoutResult result = layout_.draw(ui_, {size.x, size.y}, document_, picture_, files_.error(),
@@ -100,9 +101,10 @@ private:
         if (result.dismissed) files_.show_error("");
         if (result.command) perform(*result.command);
         files_.draw(ui_);
+        if (document_.generation() != shown_document_) show_new_document();
         shortcut_list(ui_);
         held_ = ImGui::IsAnyItemActive();
-        interacting_ = (held_ && gesture_edited_ && ImGui::IsAnyMouseDown()) || seconds() < wheel_until_;
+        interacting_ = (held_ && gesture_moves_ && ImGui::IsAnyMouseDown()) || seconds() < wheel_until_;
         window_.set_title(fmt::format("{}{} - Farfield", document_.saved() ? "" : "* ", document_.name()));
         window_.end_frame();
         submit(result.viewport.size);
@@ -118,10 +120,16 @@ private:
         // While a splitter moves, the old picture is stretched.
         const bool splitting = held_ && !gesture_edited_;
         if (size_.x == 0 || !splitting) size_ = glm::max(glm::ivec2(picture_size * window_.pixels_per_unit()), 1);
-        const auto wanted = std::tuple(document_.revision(), size_.x, size_.y, ui_.view, interacting_);
+        const Id tuned = ui_.selection.type == ObjectType::node ? ui_.selection.id : 0;
+        const auto wanted = std::tuple(document_.revision(), size_.x, size_.y, ui_.view, tuned, interacting_);
         if (wanted == submitted_) return;
         submitted_ = wanted;
-        render_.submit({document_.snapshot(), size_, ui_.view, interacting_, frames_until_rest});
+        render_.submit({.scene = document_.snapshot(),
+                        .size = size_,
+                        .view = ui_.view,
+                        .tuned = tuned,
+                        .interacting = interacting_,
+                        .max_frames = frames_until_rest});
     }
 
     void carry_out(const Edits& edits, unsigned gesture) {
@@ -130,6 +138,10 @@ private:
                 const ObjectRef next = selection_after(edit);
                 const Id id = document_.apply(edit, gesture);
                 gesture_edited_ = true;
+                // Settings are no object in the scene that could be followed quicker at a lower resolution, which would
+                // discard the samples that most of them keep.
+                const auto* set = std::get_if<SetValue>(&edit);
+                gesture_moves_ |= !set || set->object.type != ObjectType::settings;
                 ui_.selection = next;
                 if (std::holds_alternative<InsertNode>(edit)) ui_.selection = {ObjectType::node, ui_.reveal = id};
                 if (std::holds_alternative<AddMaterial>(edit)) ui_.selection = {ObjectType::material, id};
@@ -197,7 +209,8 @@ private:
 
     void keyboard() {
         const bool asked = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
-        for (const KeyPress& press : window_.take_keys()) {
+        for (const KeyPress& press : window_.keys()) {
+            if (asked && press.key == escape_key && !ImGui::GetTopMostPopupModal()) ImGui::ClosePopupToLevel(0, true);
             // While something is typed or held, or a popup is open, keys belong to that; but saving never has to wait.
             const auto command = command_for(press);
             const bool busy = ImGui::GetIO().WantTextInput || (held_ && ImGui::IsAnyMouseDown());
@@ -245,10 +258,11 @@ private:
     unsigned last_gesture_ = 0, gesture_ = 0, wheel_gesture_ = 0;
     double wheel_until_ = 0.0;
     bool held_ = false;            ///< some control has the mouse or the keyboard
-    bool gesture_edited_ = false;  ///< and has changed the scene
+    bool gesture_edited_ = false;  ///< and has changed the document
+    bool gesture_moves_ = false;   ///< and more of it than settings
     bool interacting_ = false;
     glm::ivec2 size_{0};
-    std::tuple<std::uint64_t, int, int, View, bool> submitted_{};
+    std::tuple<std::uint64_t, int, int, View, Id, bool> submitted_{};
     std::uint64_t shown_document_ = 0;  ///< its generation
 };
 

@@ -93,7 +93,7 @@ void FileDialog::draw_path_bar(Ui& ui) {
             ImGui::NewLine();
         ImGui::SameLine(0.0f, ui.theme.px(3.0f));
         ImGui::PushID(so_far.c_str());
-        if (ImGui::SmallButton(part.c_str())) wanted = so_far;
+        if (ImGui::Button(part.c_str())) wanted = so_far;
         ImGui::PopID();
     }
     if (!wanted.empty()) enter(wanted);
@@ -102,7 +102,7 @@ void FileDialog::draw_path_bar(Ui& ui) {
 void FileDialog::draw_entries(Ui& ui) {
     const float below = 2.0f * ImGui::GetFrameHeightWithSpacing() + ImGui::GetTextLineHeightWithSpacing() + ui.theme.px(6.0f);
     ImGui::PushStyleColor(ImGuiCol_ChildBg, ImGui::GetColorU32(ImGuiCol_WindowBg));
-    ImGui::BeginChild("entries", {0.0f, -below}, true);
+    ImGui::BeginChild("entries", {0.0f, -below}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
     std::string wanted;
     for (const Entry& entry : entries_) {
         const std::string label = entry.folder ? entry.name + "/" : entry.name;
@@ -156,7 +156,10 @@ std::optional<fs::path> FileDialog::draw(Ui& ui) {
     ui.report.item("dialog", "ok");
 
     std::optional<fs::path> result;
-    if (accepted_) result = accept();
+    if (accepted_) {
+        result = accept();
+        focus_ = !result;
+    }
     if (result || cancelled) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
     return cancelled ? std::nullopt : result;

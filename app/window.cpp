@@ -5,9 +5,9 @@
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
+#include <glm/common.hpp>
 #include <imgui.h>
 
-#include <cctype>
 #include <utility>
 
 namespace farfield {
@@ -30,6 +30,15 @@ void set_hints(bool visible) {
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
 }
 
+/// No larger than the main screen has room for.
+glm::ivec2 fitted(glm::ivec2 size) {
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    if (!monitor) return size;
+    glm::ivec2 corner{0}, room{0};
+    glfwGetMonitorWorkarea(monitor, &corner.x, &corner.y, &room.x, &room.y);
+    return room.x > 0 && room.y > 0 ? glm::min(size, room) : size;
+}
+
 /// An invisible window, for its context alone.
 class SharedContext final : public Context {
 public:
@@ -48,18 +57,11 @@ private:
     GLFWwindow* window_;
 };
 
-/// The character on the key where it is a letter: Ctrl+Z is where Z is printed. Digits stay digits in every layout.
-int layout_key(int key, int scancode) {
-    if (key < GLFW_KEY_A || key > GLFW_KEY_Z) return key;
-    const char* name = glfwGetKeyName(key, scancode);
-    const bool letter = name && name[0] != '\0' && name[1] == '\0' && std::isalpha(static_cast<unsigned char>(name[0]));
-    return letter ? std::toupper(static_cast<unsigned char>(name[0])) : key;
-}
-
 }  // namespace
 
 Window::Window(glm::ivec2 size, const std::string& title) : title_(title) {
     if (!glfwInit()) throw ContextError("no window can be opened: " + last_error());
+    size = fitted(size);
     set_hints(true);
     window_ = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
     if (!window_) {
@@ -81,8 +83,7 @@ Window::Window(glm::ivec2 size, const std::string& title) : title_(title) {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;
     ImGui::GetIO().ConfigWindowsMoveFromTitleBarOnly = true;
-    // ImGui's callbacks call those that are there already.
-    ImGui_ImplGlfw_InitForOpenGL(window_, true);
+    ImGui_ImplGlfw_InitForOpenGL(window_, false);  // the queue hands on what arrives
     ImGui_ImplOpenGL3_Init("#version 430");
 }
 
@@ -102,21 +103,25 @@ Window::Input& Window::input_of(GLFWwindow* window) {
 
 void Window::install_callbacks() {
     glfwSetWindowUserPointer(window_, &input_);
-    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double, double) { input_of(w); });
-    glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int) { input_of(w); });
-    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int, int, int) { input_of(w); });
-    glfwSetScrollCallback(window_, [](GLFWwindow* w, double, double) { input_of(w); });
-    glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned) { input_of(w); });
+    // ImGui learns of the focus and of the mouse leaving by what these leave in the queue.
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
+        input_of(w).queue.moved({static_cast<float>(x), static_cast<float>(y)});
+    });
+    glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int entered) {
+        if (!entered) input_of(w).queue.moved({-1e6f, -1e6f});
+    });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) { input_of(w).queue.button(button, action); });
+    glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
+        input_of(w).queue.scrolled({static_cast<float>(x), static_cast<float>(y)});
+    });
+    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int modifiers) {
+        if (key >= 0) input_of(w).queue.key(key, scancode, action, modifiers);
+    });
+    glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned code) { input_of(w).queue.character(code); });
     glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int) { input_of(w); });
     glfwSetWindowRefreshCallback(window_, [](GLFWwindow* w) { input_of(w); });
     glfwSetFramebufferSizeCallback(window_, [](GLFWwindow* w, int, int) { input_of(w); });
     glfwSetWindowCloseCallback(window_, [](GLFWwindow* w) { input_of(w); });
-    glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int mods) {
-        Input& input = input_of(w);
-        if (action != GLFW_RELEASE)
-            input.keys.push_back({layout_key(key, scancode), (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0,
-                                  (mods & GLFW_MOD_ALT) != 0});
-    });
     glfwSetDropCallback(window_, [](GLFWwindow* w, int count, const char** paths) {
         input_of(w).dropped.assign(paths, paths + count);
     });
@@ -125,13 +130,15 @@ void Window::install_callbacks() {
 std::unique_ptr<Context> Window::make_shared_context() { return std::make_unique<SharedContext>(window_); }
 
 bool Window::wait(double seconds) {
-    glfwWaitEventsTimeout(seconds);
-    return std::exchange(input_.arrived, false);
+    if (input_.queue.empty()) glfwWaitEventsTimeout(seconds);
+    else glfwPollEvents();
+    return std::exchange(input_.arrived, false) || !input_.queue.empty();
 }
 
 void Window::begin_frame() {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    keys_ = input_.queue.deliver(window_);
     ImGui::NewFrame();
 }
 
@@ -174,7 +181,6 @@ float Window::density() const {
 bool Window::should_close() const { return glfwWindowShouldClose(window_); }
 void Window::keep_open() { glfwSetWindowShouldClose(window_, GLFW_FALSE); }
 
-std::vector<KeyPress> Window::take_keys() { return std::exchange(input_.keys, {}); }
 std::vector<std::filesystem::path> Window::take_dropped_files() { return std::exchange(input_.dropped, {}); }
 
 }  // namespace farfield

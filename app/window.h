@@ -1,6 +1,7 @@
 // The window: GLFW, OpenGL and Dear ImGui behind one object. Lives on the main thread.
 #pragma once
 
+#include "app/input_queue.h"
 #include "renderer/context.h"
 
 #include <glm/vec2.hpp>
@@ -13,13 +14,6 @@
 struct GLFWwindow;
 
 namespace farfield {
-
-/// A key that went down. Letters and digits are named by their capital character in the user's keyboard layout; other
-/// keys by GLFW's constants, all of which are above 255.
-struct KeyPress {
-    int key;
-    bool ctrl, shift, alt;
-};
 
 class Window {
 public:
@@ -44,13 +38,13 @@ public:
     bool should_close() const;
     void keep_open();  ///< answers a request to close with no
 
-    std::vector<KeyPress> take_keys();
+    const std::vector<KeyPress>& keys() const { return keys_; }  ///< that went down before this frame
     std::vector<std::filesystem::path> take_dropped_files();
 
 private:
     struct Input {
         bool arrived = true;
-        std::vector<KeyPress> keys;
+        InputQueue queue;
         std::vector<std::filesystem::path> dropped;
     };
     static Input& input_of(GLFWwindow* window);
@@ -58,6 +52,7 @@ private:
 
     GLFWwindow* window_ = nullptr;
     Input input_;
+    std::vector<KeyPress> keys_;
     std::string title_;
 };
 

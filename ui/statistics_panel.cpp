@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace farfield {
 namespace {
 
@@ -9,7 +11,7 @@ std::string milliseconds(double ms) { return ms < 10.0 ? fmt::format("{:.2f} ms"
 
 std::string count(std::uint64_t n) {
     if (n < 10'000) return fmt::format("{}", n);
-    return n < 10'000'000 ? fmt::format("{:.1f} k", static_cast<double>(n) * 1e-3) : fmt::format("{:.1f} M", static_cast<double>(n) * 1e-6);
+    return n < 1'000'000 ? fmt::format("{:.1f} k", static_cast<double>(n) * 1e-3) : fmt::format("{:.1f} M", static_cast<double>(n) * 1e-6);
 }
 
 void line(const Ui& ui, const char* label, const std::string& value, bool strong = false) {
@@ -38,11 +40,11 @@ void statistics_overlay(Ui& ui, const Statistics& s, ImVec2 corner, float room) 
                                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoSavedSettings;
     ImGui::Begin("##statistics", nullptr, flags);
     if (ImGui::BeginTable("lines", 2, ImGuiTableFlags_SizingStretchProp)) {
-        line(ui, "Samples", fmt::format("{}  ({} frames)", s.samples, s.frames), true);
+        line(ui, "Samples", fmt::format("{}  ({} {})", s.samples, s.frames, s.frames == 1 ? "frame" : "frames"), true);
         line(ui, "Speed", fmt::format("{:.1f} frames/s", s.frames_per_second), true);
         line(ui, "Frame", milliseconds(s.frame_milliseconds), true);
         for (const PassTime& pass : s.passes) line(ui, ("   " + pass.name).c_str(), milliseconds(pass.milliseconds));
-        line(ui, "Rays", count(s.rays), true);
+        if (s.rays > 0) line(ui, "Rays", count(s.rays), true);
         if (s.exhausted_rays > 0) line(ui, "   out of steps", count(s.exhausted_rays));
         line(ui, "Compile", milliseconds(s.compile_milliseconds), true);
         line(ui, "   for structure", fmt::format("{}", s.structural_compiles));

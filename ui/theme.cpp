@@ -86,6 +86,9 @@ void set_style(const Theme& theme) {
     c[ImGuiCol_Separator] = gray(50, 54, 62);
     c[ImGuiCol_SeparatorHovered] = glow(0.6f);
     c[ImGuiCol_SeparatorActive] = accent;
+    c[ImGuiCol_ResizeGrip] = gray(66, 71, 81);
+    c[ImGuiCol_ResizeGripHovered] = glow(0.6f);
+    c[ImGuiCol_ResizeGripActive] = accent;
     c[ImGuiCol_TableHeaderBg] = gray(37, 41, 48);
     c[ImGuiCol_TableBorderLight] = gray(44, 48, 56);
     c[ImGuiCol_TableBorderStrong] = gray(50, 54, 62);

@@ -107,7 +107,17 @@ private:
     }
 
     void context_menu(const Node& node, const Node* parent) {
-        if (!ImGui::BeginPopupContextItem()) return;
+        // The rows stand closer than a menu's.
+        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui_.theme.px(10.0f), ui_.theme.px(8.0f)});
+        ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui_.theme.px(7.0f), ui_.theme.px(6.0f)});
+        if (ImGui::BeginPopupContextItem()) {
+            context_entries(node, parent);
+            ImGui::EndPopup();
+        }
+        ImGui::PopStyleVar(2);
+    }
+
+    void context_entries(const Node& node, const Node* parent) {
         if (info(node.kind).takes_children() && ImGui::BeginMenu("Add inside")) {
             if (const auto kind = kind_menu(ui_, "add_inside", [](const KindInfo&) { return true; })) {
                 edits.push_back(InsertNode{node.id, -1, make_node(*kind)});
@@ -135,7 +145,6 @@ private:
             ImGui::Separator();
             if (ImGui::MenuItem("Delete", "Del")) edits.push_back(RemoveNode{node.id});
         }
-        ImGui::EndPopup();
     }
 
     Ui& ui_;

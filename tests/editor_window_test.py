@@ -1,0 +1,319 @@
+"""Drives the editor's real window by mouse and keyboard on a virtual display.
+
+Usage: editor_window_test.py FARFIELD SCENE
+
+The editor tells through --report where its controls are and what state it is in. Nothing here depends on how fast the
+machine is: every step waits for its effect, and only a machine that stands still fails.
+"""
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+PATIENCE = 180  # seconds until a step that shows no effect has failed
+
+
+class Failure(Exception):
+    pass
+
+
+def check(condition, message):
+    if not condition:
+        raise Failure(message)
+
+
+class Display:
+    """A virtual screen, gone at the end of the `with` block."""
+
+    def __enter__(self):
+        reader, writer = os.pipe()
+        self.process = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(writer), "-screen", "0", "1100x680x24", "-nolisten", "tcp"],
+            pass_fds=[writer], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        os.close(writer)
+        with os.fdopen(reader) as pipe:
+            number = pipe.readline().strip()
+        if not number:
+            self.process.kill()
+            self.process.wait()
+            raise Failure("Xvfb does not start")
+        self.environment = dict(os.environ, DISPLAY=":" + number, LC_ALL="C.UTF-8")
+        self.environment.pop("WAYLAND_DISPLAY", None)
+        return self
+
+    def __exit__(self, *_):
+        self.process.terminate()
+        self.process.wait()
+
+    def xdotool(self, *arguments):
+        return subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, check=True,
+                              capture_output=True, text=True, timeout=PATIENCE).stdout
+
+    def picture(self, x, y, width, height):
+        """The bytes of a part of the screen, three for each pixel."""
+        return subprocess.run(["import", "-silent", "-window", "root", "-crop", f"{width}x{height}+{x}+{y}", "-depth", "8",
+                               "rgb:-"], env=self.environment, check=True, capture_output=True, timeout=PATIENCE).stdout
+
+
+class Editor:
+    """The program, its report, and hands to use it."""
+
+    def __init__(self, display, program, scene, report):
+        self.display, self.report_file = display, report
+        self.seen = []  # every sample count that was reported, in order, until it is cleared
+        self.process = subprocess.Popen([program, str(scene), "--report", str(report)], env=display.environment)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.process.poll() is None:
+            self.process.kill()
+        self.process.wait()
+
+    def report(self):
+        check(self.process.poll() is None, f"the editor has ended with status {self.process.returncode}")
+        try:
+            report = json.loads(self.report_file.read_text())
+        except FileNotFoundError:
+            return None
+        self.seen.append(report["samples"])
+        return report
+
+    def wait(self, what, condition):
+        """Waits until the report satisfies `condition`, and returns it."""
+        end = time.monotonic() + PATIENCE
+        report = None
+        while time.monotonic() < end:
+            report = self.report()
+            if report is not None and condition(report):
+                return report
+            time.sleep(0.05)
+        state = {key: value for key, value in (report or {}).items() if key != "controls"}
+        raise Failure(f"waited in vain for: {what}; last state {state}; controls {sorted((report or {}).get('controls', {}))}")
+
+    def settled(self):
+        """Waits for two more pictures, so that what was done before is in the last one."""
+        start = self.report()["pictures"]
+        return self.wait("two more pictures", lambda r: r["pictures"] >= start + 2)
+
+    def place(self, control):
+        """The rectangle of a control, once it stands still."""
+        last = None
+
+        def still(report):
+            nonlocal last
+            now = report["controls"].get(control)
+            before, last = last, now
+            return now is not None and now == before
+
+        return self.wait(f"control {control}", still)["controls"][control]
+
+    def point_at(self, control, across=0.5):
+        x, y, width, height = self.place(control)
+        x, y = int(x + across * width), y + height // 2
+        self.display.xdotool("mousemove", x, y)
+        return x, y
+
+    def click(self, control, times=1):
+        self.point_at(control)
+        self.display.xdotool("click", "--repeat", times, "--delay", 40, 1)
+
+    def drag(self, control, by=0, across=0.5, to=None):
+        """Presses on `control` and moves by so many pixels, or to the fraction `to` of its width."""
+        x, y = self.point_at(control, across)
+        if to is not None:
+            left, _, width, _ = self.place(control)
+            by = int(left + to * width) - x
+        self.display.xdotool("mousedown", 1)
+        for step in range(1, 13):
+            self.display.xdotool("mousemove", x + by * step // 12, y)
+            time.sleep(0.03)
+        self.display.xdotool("mouseup", 1)
+
+    def key(self, *keys):
+        self.display.xdotool("key", *keys)
+
+    def type(self, text):
+        self.display.xdotool("type", "--delay", 30, text)
+
+    def viewport(self):
+        return self.display.picture(*self.place("viewport"))
+
+
+def changed_fraction(a, b):
+    """Fraction of the samples of two pictures that differ by more than a little."""
+    check(len(a) == len(b) and len(a) > 0, "the pictures differ in size")
+    return sum(abs(x - y) > 20 for x, y in zip(a, b)) / len(a)
+
+
+def check_seen(editor, action, what):
+    """`action` changes the picture, by more than noise does."""
+    first = editor.viewport()
+    editor.settled()
+    before = editor.viewport()
+    noise = changed_fraction(first, before)
+    action()
+    changed = changed_fraction(before, editor.viewport())
+    check(changed > noise + 0.005, f"{what} is to be seen: {changed:.4f} of the picture changed, {noise:.4f} by noise")
+
+
+def start(editor):
+    report = editor.wait("a first picture", lambda r: r["pictures"] >= 2)
+    check(report["error"] == "", f"the scene opens without an error, not: {report['error']}")
+    check(report["structural_compiles"] == 1, "opening a scene compiles one program")
+    windows = editor.display.xdotool("search", "--onlyvisible", "--name", "Farfield").split()
+    editor.display.xdotool("windowfocus", windows[0])
+    editor.key("F3")  # numbers that change all the time would count as a changed picture
+    editor.settled()
+
+
+def add_sphere_under_union(editor):
+    editor.click("tree/scene")
+    editor.wait("the union is selected", lambda r: r["selection"] == "scene")
+    compiles = editor.report()["structural_compiles"]
+    editor.click("tree_panel/add")
+    editor.click("add/sphere")
+    editor.wait("the sphere is there and selected", lambda r: r["selection"] == "Sphere" and not r["saved"])
+    editor.wait("its program", lambda r: r["structural_compiles"] > compiles)
+    report = editor.settled()
+    check(report["structural_compiles"] == compiles + 1, "one added node is one structural compile")
+
+
+def type_values(editor):
+    """Into the open, where the camera sees it."""
+
+    def type_all():
+        for control, text in (("radius", "0.7"), ("translate/y", "1.5"), ("translate/z", "2.5")):
+            revision = editor.report()["revision"]
+            editor.click("inspector/" + control, times=2)
+            editor.type(text)
+            editor.key("Return")
+            editor.wait(f"the typed {control}", lambda r: r["revision"] > revision)
+        editor.settled()
+
+    check_seen(editor, type_all, "the sphere")
+
+
+def drag_radius(editor):
+    report = editor.settled()
+    compiles, revision = report["structural_compiles"], report["revision"]
+
+    def drag():
+        editor.drag("inspector/radius", by=60)
+        editor.wait("a larger radius", lambda r: r["revision"] > revision)
+        editor.settled()
+
+    check_seen(editor, drag, "the larger sphere")
+    report = editor.report()
+    check(report["structural_compiles"] == compiles, "a dragged parameter compiles nothing")
+    dragged = report["revision"]
+    editor.key("ctrl+z")
+    editor.wait("undo", lambda r: r["revision"] < dragged)
+    check(editor.report()["revision"] == revision, "one drag is one step of undo")
+    editor.key("ctrl+shift+z")
+    editor.wait("redo", lambda r: r["revision"] == dragged)
+    editor.settled()
+
+
+def move_slider(editor, name, to, keeps_samples):
+    # With a few samples accumulated, a reset would be seen.
+    editor.wait("some samples", lambda r: r["frames"] >= 4)
+    report = editor.report()
+    revision, compiles = report["revision"], report["structural_compiles"]
+    editor.seen.clear()
+    editor.drag(f"settings/{name}", to=to)
+    editor.wait(f"a new {name}", lambda r: r["revision"] > revision)
+    report = editor.settled()
+    if keeps_samples:
+        check(editor.seen == sorted(editor.seen), f"{name} keeps the accumulated samples, which went {editor.seen}")
+        samples = report["samples"]
+        editor.wait("more samples", lambda r: r["samples"] > samples)
+    check(report["structural_compiles"] == compiles, f"{name} compiles nothing")
+
+
+def save(editor, scene, original):
+    editor.key("ctrl+s")
+    editor.wait("saved", lambda r: r["saved"])
+    saved = json.loads(scene.read_text())
+    sphere = [node for node in saved["root"]["children"] if node["kind"] == "sphere"]
+    check(len(sphere) == 1, "the saved file has the sphere")
+    check(sphere[0].get("radius", 0) > 0.7, f"the saved sphere has the dragged radius, not {sphere[0]}")
+    for name in ("samples", "blur_levels", "ao_radius"):
+        old, new = original.get("settings", {}).get(name), saved["settings"].get(name)
+        check(new is not None and new != old, f"the saved {name} is a new one: {old} and {new}")
+
+
+def reload(editor, scene, copy):
+    """Opens the saved file through menu and dialog, saves it elsewhere, and finds the same bytes."""
+    editor.click("tree_panel/add")
+    editor.click("add/box")
+    changed = editor.wait("an unsaved change", lambda r: not r["saved"])["revision"]
+    editor.click("menu/File")
+    editor.click("menu/File/open")
+    editor.click("unsaved/discard")
+    editor.place("dialog/path")
+    editor.type(str(scene))
+    editor.key("Return")
+    report = editor.wait("the file is open again", lambda r: r["saved"] and r["revision"] > changed)
+    check(report["selection"] == "scene" and report["error"] == "", "an opened file begins afresh")
+    editor.key("ctrl+shift+s")
+    editor.place("dialog/path")
+    editor.key("ctrl+a")
+    editor.type(str(copy))
+    editor.click("dialog/ok")
+    editor.wait("saved elsewhere", lambda r: r["file"] == str(copy))
+    check(copy.read_bytes() == scene.read_bytes(), "a file that was opened and saved is the same file")
+
+
+def show_error(editor, bad):
+    bad.write_text('{"farfield": 1, "root": {"kind": "union", "children": [{"kind": "sphere", "radius": -1}]}}')
+    before = editor.report()
+    editor.key("ctrl+o")
+    editor.place("dialog/path")
+    editor.type(str(bad))
+    editor.key("Return")
+    report = editor.wait("an error message", lambda r: "radius" in r["error"])
+    check(report["file"] == before["file"] and report["revision"] == before["revision"], "the last good scene stays")
+    editor.click("message/dismiss")
+    editor.wait("no message", lambda r: r["error"] == "")
+
+
+def main():
+    program, bundled = sys.argv[1], Path(sys.argv[2])
+    with tempfile.TemporaryDirectory(prefix="farfield-test-") as folder, Display() as display:
+        scene = Path(folder) / "scene.json"
+        shutil.copyfile(bundled, scene)
+        original = json.loads(scene.read_text())
+        with Editor(display, program, scene, Path(folder) / "report.json") as editor:
+            steps = [
+                lambda: start(editor),
+                lambda: add_sphere_under_union(editor),
+                lambda: type_values(editor),
+                lambda: drag_radius(editor),
+                lambda: move_slider(editor, "samples", 0.1, keeps_samples=False),
+                lambda: move_slider(editor, "blur_levels", 0.9, keeps_samples=True),
+                lambda: move_slider(editor, "ao_radius", 0.4, keeps_samples=True),
+                lambda: save(editor, scene, original),
+                lambda: reload(editor, scene, Path(folder) / "copy.json"),
+                lambda: show_error(editor, Path(folder) / "bad.json"),
+            ]
+            names = ["start", "add a sphere under a union", "type values", "drag a radius", "sample count", "blur levels",
+                     "AO radius", "save", "reload", "an error in a file"]
+            for name, step in zip(names, steps):
+                print(f"{name} ...", flush=True)
+                step()
+            editor.key("ctrl+q")
+            check(editor.process.wait(PATIENCE) == 0, "the editor ends with status 0")
+    print("all steps passed")
+
+
+if __name__ == "__main__":
+    try:
+        main()
+    except Failure as failure:
+        sys.exit(f"FAILED: {failure}")
