@@ -1,0 +1,133 @@
+#include "sdf/codegen.h"
+
+#include "sdf/edit.h"
+#include "sdf/scene_file.h"
+#include "tests/test_support.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace farfield {
+namespace {
+
+Scene ring_on_box() {
+    Scene scene;
+    Node ring = make_node(NodeKind::torus);
+    ring.name = "ring";
+    ring.transform.translate = {0.0f, 1.0f, 0.0f};
+    apply(scene, InsertNode{scene.root.id, -1, make_node(NodeKind::box)});
+    apply(scene, InsertNode{scene.root.id, -1, ring});
+    return scene;
+}
+
+Id first_child(const Scene& scene) { return scene.root.children.at(0).id; }
+
+TEST(Codegen, ReadsLikeHandWrittenCode) {
+    const std::string text = generate(ring_on_box(), Tier::specialised).text;
+    EXPECT_NE(text.find("float scene_distance(vec3 p) {\n"
+                        "    // scene (union)\n"
+                        "    float d0 = box(p, vec3(0.5));"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(text.find("    d0 = min(d0, torus(p - vec3(0.0, 1.0, 0.0), 0.5, 0.15));"), std::string::npos) << text;
+    EXPECT_NE(text.find("// ring\n"), std::string::npos) << text;
+}
+
+TEST(Codegen, HoldsOnlyTheShapesThatTheSceneUses) {
+    const std::string text = generate(ring_on_box(), Tier::specialised).text;
+    for (const KindInfo& kind : node_kinds()) {
+        const bool used = kind.kind == NodeKind::box || kind.kind == NodeKind::torus;
+        EXPECT_EQ(text.find(std::string(kind.function) + "(vec3 p") != std::string::npos, used) << kind.key;
+    }
+}
+
+TEST(Codegen, RenamingChangesTheTextAndNotTheKey) {
+    Scene scene = ring_on_box();
+    for (const Tier tier : {Tier::live, Tier::specialised}) {
+        const GeneratedScene before = generate(scene, tier);
+        Scene renamed = scene;
+        apply(renamed, SetName{{ObjectType::node, first_child(scene)}, "block"});
+        const GeneratedScene after = generate(renamed, tier);
+        EXPECT_NE(before.text, after.text);
+        EXPECT_EQ(before.key, after.key);
+    }
+}
+
+TEST(Codegen, NoParameterEditChangesTheLiveKey) {
+    std::mt19937 random(1);
+    for (unsigned seed = 0; seed < 20; ++seed) {
+        Scene scene = random_scene(seed, 30);
+        const GeneratedScene before = generate(scene, Tier::live);
+        std::vector<Id> ids;
+        const auto collect = [&](const auto& self, const Node& node) -> void {
+            ids.push_back(node.id);
+            for (const Node& child : node.children) self(self, child);
+        };
+        collect(collect, scene.root);
+        for (int edit = 0; edit < 100; ++edit) {
+            const ObjectRef node{ObjectType::node, ids[random() % ids.size()]};
+            const std::vector<Parameter> all = parameters(scene, node);
+            const Parameter& parameter = all[random() % all.size()];
+            apply(scene, SetValue{node, parameter.key, random_value(parameter, random)});
+        }
+        const GeneratedScene after = generate(scene, Tier::live);
+        EXPECT_EQ(before.key, after.key);
+        EXPECT_EQ(before.parameters.size(), after.parameters.size());
+        EXPECT_NE(before.parameters, after.parameters);
+    }
+}
+
+TEST(Codegen, MovingTheTunedNodeChangesTheBlockAlone) {
+    Scene scene = ring_on_box();
+    const Id ring = scene.root.children.at(1).id;
+    const GeneratedScene before = generate(scene, Tier::specialised, ring);
+    apply(scene, SetValue{{ObjectType::node, ring}, "major_radius", {0.7f, 0.0f, 0.0f}});
+    apply(scene, SetValue{{ObjectType::node, ring}, "rotate", {10.0f, 20.0f, 30.0f}});
+    const GeneratedScene after = generate(scene, Tier::specialised, ring);
+    EXPECT_EQ(before.key, after.key);
+    EXPECT_NE(before.parameters, after.parameters);
+    // Translation, rotation, scale, two radii and the material of one node, nothing of the other.
+    EXPECT_EQ(after.parameters.size(), 3u + 9u + 1u + 2u + 1u);
+}
+
+TEST(Codegen, StructuralEditsChangeTheLiveKey) {
+    const Scene scene = ring_on_box();
+    const std::string key = generate(scene, Tier::live).key;
+    const Id box = first_child(scene);
+    for (const Edit& edit : {Edit{RemoveNode{box}}, Edit{SetKind{box, NodeKind::sphere}},
+                             Edit{InsertNode{scene.root.id, 0, make_node(NodeKind::sphere)}}}) {
+        Scene edited = scene;
+        apply(edited, edit);
+        EXPECT_NE(generate(edited, Tier::live).key, key);
+    }
+}
+
+TEST(Codegen, EveryLineOfANodeNamesIt) {
+    const Scene scene = ring_on_box();
+    const GeneratedScene generated = generate(scene, Tier::specialised);
+    EXPECT_EQ(generated.line_nodes.size(),
+              static_cast<std::size_t>(std::count(generated.text.begin(), generated.text.end(), '\n')));
+    std::size_t line = 0, start = 0;
+    while (start < generated.text.size()) {
+        const std::size_t end = generated.text.find('\n', start);
+        const std::string text = generated.text.substr(start, end - start);
+        if (text.find("torus(p -") != std::string::npos) {
+            EXPECT_EQ(generated.line_nodes[line], scene.root.children[1].id) << text;
+        }
+        start = end + 1;
+        ++line;
+    }
+}
+
+TEST(Codegen, AnEmptySceneIsFarFromEverything) {
+    EXPECT_NE(generate(Scene(), Tier::specialised).text.find("return 1000000000.0;"), std::string::npos);
+    Scene scene;  // nothing minus a box is nothing
+    const Id subtract = apply(scene, InsertNode{scene.root.id, -1, make_node(NodeKind::subtract)});
+    apply(scene, InsertNode{subtract, -1, make_node(NodeKind::union_)});
+    apply(scene, InsertNode{subtract, -1, make_node(NodeKind::box)});
+    EXPECT_NE(generate(scene, Tier::specialised).text.find("return 1000000000.0;"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace farfield

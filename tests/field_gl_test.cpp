@@ -1,0 +1,84 @@
+// The generated function on the GPU against the same shapes on the CPU.
+#include "renderer/context.h"
+#include "renderer/gl.h"
+#include "sdf/codegen.h"
+#include "sdf/evaluate.h"
+#include "sdf/scene_file.h"
+#include "tests/test_support.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace farfield {
+namespace {
+
+/// Distances at `points` by the generated code alone: nothing but it, its parameters and a loop.
+std::vector<float> gpu_distances(const Scene& scene, Tier tier, const std::vector<glm::vec4>& points) {
+    const GeneratedScene generated = generate(scene, tier);
+    std::string source = "#version 430 core\nlayout(local_size_x = 64) in;\n";
+    if (!generated.parameters.empty())
+        source += "layout(std430, binding = 2) readonly buffer P { float block[]; };\nfloat parameter(int i) { return block[i]; }\n";
+    source += generated.text +
+              "layout(std430, binding = 0) readonly buffer Points { vec4 points[]; };\n"
+              "layout(std430, binding = 1) writeonly buffer Results { float results[]; };\n"
+              "void main() {\n"
+              "    uint i = gl_GlobalInvocationID.x;\n"
+              "    if (i < uint(points.length())) results[i] = scene_distance(points[i].xyz);\n"
+              "}\n";
+    const gl::Program program("distances", source);
+    gl::Buffer in("points"), out("results"), parameters("parameters");
+    in.upload(std::span(points));
+    out.resize(points.size() * sizeof(float));
+    parameters.upload(std::span(generated.parameters));
+    in.bind_storage(0);
+    out.bind_storage(1);
+    parameters.bind_storage(2);
+    program.run(points.size());
+    std::vector<float> results(points.size());
+    out.read(results.data(), results.size() * sizeof(float));
+    return results;
+}
+
+/// The largest difference relative to the size of the numbers involved: coordinates are subtracted from points, so float
+/// rounding is relative to the coordinates, not to the distance.
+void expect_agreement(const Scene& scene, unsigned seed, const std::string& name) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> uniform(-8.0f, 8.0f);
+    std::vector<glm::vec4> points(10'000);
+    for (glm::vec4& p : points) p = {uniform(random), uniform(random), uniform(random), 0.0f};
+    const FieldEvaluator field(scene);
+    for (const Tier tier : {Tier::specialised, Tier::live}) {
+        const std::vector<float> gpu = gpu_distances(scene, tier, points);
+        double worst = 0.0;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const glm::vec3 p(points[i]);
+            const float cpu = field.distance(p);
+            const double scale = std::max({1.0f, std::abs(cpu), std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+            worst = std::max(worst, std::abs(static_cast<double>(cpu) - gpu[i]) / scale);
+        }
+        EXPECT_LE(worst, 1e-5) << name << (tier == Tier::live ? ", live" : ", specialised");
+    }
+}
+
+class FieldOnGpu : public testing::Test {
+protected:
+    void SetUp() override {
+        context_ = make_headless_context(ContextKind::automatic);
+        context_->make_current();
+    }
+    void TearDown() override { context_->release(); }
+    std::unique_ptr<Context> context_;
+};
+
+TEST_F(FieldOnGpu, AgreesWithTheCpuOnBundledScenes) {
+    for (const auto& file : bundled_scenes()) expect_agreement(load_scene(file), 1, file.filename().string());
+}
+
+TEST_F(FieldOnGpu, AgreesWithTheCpuOnRandomScenes) {
+    for (unsigned seed = 0; seed < 8; ++seed) expect_agreement(random_scene(seed, 12), seed, fmt::format("random scene {}", seed));
+}
+
+}  // namespace
+}  // namespace farfield
