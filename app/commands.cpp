@@ -116,8 +116,10 @@ int run_bench(const BenchOptions& options) {
         const char* name = tier == Tier::live ? "live" : "specialised";
         frame.tier = tier;
         frame.counting = false;
+        const double compile_start = cpu_seconds();
         renderer.update(scene, frame);
-        fmt::print("\n{} program: compiled in {:.0f} ms\n", name, renderer.statistics().compile_milliseconds);
+        fmt::print("\n{} program: compiled in {:.0f} ms, process CPU time {:.0f} ms\n", name,
+                   renderer.statistics().compile_milliseconds, 1e3 * (cpu_seconds() - compile_start));
         renderer.render_frame();
         std::vector<double> cpu, wall;
         std::vector<PassTime> passes;

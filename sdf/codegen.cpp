@@ -239,10 +239,7 @@ private:
                     out.add(fmt::format("{}float {} = {};", indent, e, next.distance), child.id, name);
                     next.distance = e;
                 }
-                const std::string share = kind.role == Role::combine
-                                              ? fmt::format("{}({}, {}{})", kind.secondary, d, next.distance, num.arguments)
-                                              : fmt::format("union_weight({}, {}, 0.0)", d, next.distance);
-                out.add(fmt::format("{}{} = blend_materials({}, {}, {});", indent, m, m, next.material, share), child.id);
+                out.add(fmt::format("{}{} = {};", indent, m, blend(kind, num, result, next)), child.id);
             }
             out.add(fmt::format("{}{} = {};", indent, d, combination(kind, num, d, next.distance)), child.id,
                     with_material_ ? "" : name);
@@ -253,6 +250,17 @@ private:
         if (kind.role != Role::combine) return fmt::format("min({}, {})", a, b);
         if (num.hard) return fmt::format(fmt::runtime(kind.when_zero), a, b);
         return fmt::format("{}({}, {}{})", kind.function, a, b, num.arguments);
+    }
+
+    /// The material code where `next` is combined with `so_far`; next.distance must be a variable.
+    static std::string blend(const KindInfo& kind, const Numbers& num, const Result& so_far, const Result& next) {
+        const std::string& a = so_far.distance;
+        const std::string& b = next.distance;
+        if (kind.role != Role::combine || num.hard) {
+            const KindInfo& hard = kind.role == Role::combine ? kind : info(NodeKind::union_);
+            return fmt::format("{} ? {} : {}", fmt::format(fmt::runtime(hard.second_shows), a, b), next.material, so_far.material);
+        }
+        return fmt::format("blend_materials({}, {}, {}({}, {}{}))", so_far.material, next.material, kind.secondary, a, b, num.arguments);
     }
 
     /// The content becomes a function of its own, called for each cell that can hold the nearest copy.

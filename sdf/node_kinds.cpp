@@ -81,11 +81,12 @@ KindInfo make_primitive(NodeKind kind, const char* key, const char* label, const
 
 KindInfo make_combination(NodeKind kind, const char* key, const char* label, const char* tip, bool exact,
                           const char* function, float (*evaluate)(float, float, Values), const char* weight,
-                          float (*evaluate_weight)(float, float, Values), const char* hard) {
+                          float (*evaluate_weight)(float, float, Values), const char* hard,
+                          const char* second_shows) {
     KindInfo k{};
     k.kind = kind, k.key = key, k.label = label, k.tip = tip, k.role = Role::combine, k.exact = exact;
     k.parameters = blend, k.function = function, k.combine = evaluate, k.secondary = weight;
-    k.weight = evaluate_weight, k.when_zero = hard;
+    k.weight = evaluate_weight, k.when_zero = hard, k.second_shows = second_shows;
     return k;
 }
 
@@ -133,13 +134,14 @@ std::vector<KindInfo> make_table() {
                                FUNCTION(primitive, ellipsoid)));
 
     t.push_back(make_combination(K::union_, "union", "Union", "All of the children together", true,
-                                 FUNCTION(combine, smooth_union), FUNCTION(combine, union_weight), "min({0}, {1})"));
+                                 FUNCTION(combine, smooth_union), FUNCTION(combine, union_weight), "min({0}, {1})",
+                                 "{1} < {0}"));
     t.push_back(make_combination(K::intersect, "intersect", "Intersect", "What all children have in common", false,
                                  FUNCTION(combine, smooth_intersect), FUNCTION(combine, intersect_weight),
-                                 "max({0}, {1})"));
+                                 "max({0}, {1})", "{1} > {0}"));
     t.push_back(make_combination(K::subtract, "subtract", "Subtract", "The first child without the others", false,
                                  FUNCTION(combine, smooth_subtract), FUNCTION(combine, subtract_weight),
-                                 "max({0}, -{1})"));
+                                 "max({0}, -{1})", "-{1} > {0}"));
 
     KindInfo mirror = make_modifier(
         K::mirror, "mirror", "Mirror", "Shows the content of the positive side on both sides", Role::domain, true,

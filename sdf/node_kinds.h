@@ -43,7 +43,10 @@ struct KindInfo {
     /// A second function of shapes.glsl, or null. combine: float f(a, b, parameters...), the fraction of b's material;
     /// domain: float f(d, p, parameters...), a safe distance; repeat: int f(parameters...), the number of cells.
     const char* secondary;
-    const char* when_zero;  ///< combine: GLSL of {0} and {1} to use when all parameters are known to be 0
+    /// combine: GLSL of the distances {0} and {1} to use when all parameters are known to be 0, for the distance and for
+    /// whether the second one's material shows.
+    const char* when_zero;
+    const char* second_shows;
     /// The same functions on the CPU, whichever the role uses.
     float (*primitive)(glm::vec3 p, Values v);
     float (*combine)(float a, float b, Values v);

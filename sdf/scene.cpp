@@ -3,6 +3,7 @@
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace farfield {
@@ -37,7 +38,11 @@ glm::mat3 rotation_matrix(const Transform& transform) {
     const glm::dmat3 x(1.0, 0.0, 0.0, 0.0, c.x, s.x, 0.0, -s.x, c.x);
     const glm::dmat3 y(c.y, 0.0, -s.y, 0.0, 1.0, 0.0, s.y, 0.0, c.y);
     const glm::dmat3 z(c.z, s.z, 0.0, -s.z, c.z, 0.0, 0.0, 0.0, 1.0);
-    return glm::mat3(z * y * x);
+    glm::dmat3 m = z * y * x;
+    for (int column = 0; column < 3; ++column)
+        for (int row = 0; row < 3; ++row)
+            if (std::abs(m[column][row]) < 1e-12) m[column][row] = 0.0;  // quarter turns are exact
+    return glm::mat3(m);
 }
 
 Scene::Scene() {

@@ -1,0 +1,121 @@
+// The program as scripts use it: exit statuses, messages, files.
+#include "renderer/image.h"
+#include "renderer/views.h"
+#include "tests/test_support.h"
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+namespace farfield {
+namespace {
+
+struct Outcome {
+    int status = -1;
+    std::string output;  ///< stdout and stderr
+};
+
+Outcome farfield_command(const std::string& arguments) {
+    Outcome outcome;
+    FILE* pipe = popen(fmt::format("env -u DISPLAY -u WAYLAND_DISPLAY '{}' {} 2>&1", FARFIELD_PROGRAM, arguments).c_str(), "r");
+    if (!pipe) return outcome;
+    std::array<char, 4096> buffer{};
+    while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe)) outcome.output.append(buffer.data(), n);
+    const int status = pclose(pipe);
+    if (WIFEXITED(status)) outcome.status = WEXITSTATUS(status);
+    return outcome;
+}
+
+std::string scene(const char* name) { return fmt::format("'{}/{}.json'", FARFIELD_SCENES, name); }
+
+TEST(CommandLine, HelpNamesEveryCommandAndNeedsNoDisplay) {
+    const Outcome help = farfield_command("--help");
+    EXPECT_EQ(help.status, 0);
+    for (const char* word : {"render", "glsl", "check", "bench", "SCENE", "scenes/README.md"})
+        EXPECT_NE(help.output.find(word), std::string::npos) << word;
+    const Outcome render = farfield_command("render --help");
+    EXPECT_EQ(render.status, 0);
+    for (const char* option : {"--size", "--method", "--samples", "--frames", "--blur-levels", "--ao-radius", "--bounces",
+                               "--seed", "--view", "--context", "--exposure"})
+        EXPECT_NE(render.output.find(option), std::string::npos) << option;
+}
+
+TEST(CommandLine, RenderedFilesHoldEveryViewAndRepeatBitForBit) {
+    const TemporaryFolder folder;
+    const std::string options = scene("cornell") + " --size 48x32 --frames 2 --samples 2 --seed 3";
+    for (const char* name : {"a", "b"}) {
+        const Outcome render = farfield_command(fmt::format("render {} -o '{}' -o '{}'", options, (folder / fmt::format("{}.exr", name)).string(),
+                                                            (folder / fmt::format("{}.png", name)).string()));
+        ASSERT_EQ(render.status, 0) << render.output;
+        EXPECT_EQ(render.output, "");
+    }
+    EXPECT_EQ(read_image(folder / "a.exr").pixels, read_image(folder / "b.exr").pixels);
+    EXPECT_EQ(read_text(folder / "a.png"), read_text(folder / "b.png"));
+    EXPECT_EQ(read_image(folder / "a.png").size, glm::ivec2(48, 32));
+
+    const auto exr = OIIO::ImageInput::open((folder / "a.exr").string());
+    ASSERT_TRUE(exr);
+    EXPECT_EQ(exr->spec().format, OIIO::TypeDesc::FLOAT);
+    const std::vector<std::string>& channels = exr->spec().channelnames;
+    for (const ViewInfo& view : views())
+        for (const char* channel : {".R", ".G", ".B"})
+            EXPECT_NE(std::find(channels.begin(), channels.end(), view.key + std::string(channel)), channels.end()) << view.key;
+}
+
+TEST(CommandLine, GeneratedCodeIsPrinted) {
+    const Outcome glsl = farfield_command("glsl " + scene("cornell"));
+    EXPECT_EQ(glsl.status, 0);
+    EXPECT_NE(glsl.output.find("float scene_distance(vec3 p) {"), std::string::npos);
+}
+
+TEST(CommandLine, BenchReportsPassesAndEvaluations) {
+    const Outcome bench = farfield_command("bench " + scene("cornell") + " --size 32x32 --frames 1 --live");
+    EXPECT_EQ(bench.status, 0) << bench.output;
+    for (const char* word : {"compiled in", "frames/s", "camera rays", "far light", "evaluations per ray", "live program"})
+        EXPECT_NE(bench.output.find(word), std::string::npos) << word;
+}
+
+TEST(CommandLine, WrongUseAndWrongInputExitWithTwo) {
+    const TemporaryFolder folder;
+    write_text(folder / "broken.json", "{\n  \"farfield\": 1,\n  \"root\": {\"kind\": \"blob\"}\n}\n");
+    const std::string broken = fmt::format("'{}'", (folder / "broken.json").string());
+    const std::string output = fmt::format(" -o '{}'", (folder / "out.png").string());
+    for (const std::string& arguments :
+         {std::string("render"), "render " + scene("cornell"), "render " + scene("cornell") + output + " --size 0x4",
+          "render " + scene("cornell") + output + " --size big", "render " + scene("cornell") + output + " --samples 65",
+          "render " + scene("cornell") + output + " --samples nan", "render " + scene("cornell") + output + " --method magic",
+          "render " + scene("cornell") + output + " --view nothing", "render " + scene("cornell") + output + " --frames 0",
+          "render " + broken + output, "glsl " + broken, "check " + broken, "bench " + broken, std::string("--nonsense"),
+          "render '" + (folder / "missing.json").string() + "'" + output}) {
+        const Outcome outcome = farfield_command(arguments);
+        EXPECT_EQ(outcome.status, 2) << arguments << "\n" << outcome.output;
+        EXPECT_FALSE(outcome.output.empty()) << arguments;
+    }
+    EXPECT_NE(farfield_command("check " + broken).output.find("broken.json:3: root/kind"), std::string::npos)
+        << farfield_command("check " + broken).output;
+    EXPECT_FALSE(std::filesystem::exists(folder / "out.png"));
+}
+
+TEST(CommandLine, AnImpossibleOutputExitsWithOneAndLeavesNothing) {
+    const TemporaryFolder folder;
+    for (const char* file : {"no/such/folder/a.png", "a.unknown", "a.exr/b.exr"}) {
+        const Outcome outcome = farfield_command(
+            fmt::format("render {} --size 8x8 --frames 1 --samples 1 -o '{}'", scene("cornell"), (folder / file).string()));
+        EXPECT_EQ(outcome.status, 1) << file << "\n" << outcome.output;
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
+}
+
+TEST(CommandLine, WithoutADisplayTheEditorSaysSo) {
+    const Outcome outcome = farfield_command(scene("cornell"));
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_FALSE(outcome.output.empty());
+}
+
+}  // namespace
+}  // namespace farfield
