@@ -18,8 +18,10 @@ using Clock = std::chrono::steady_clock;
 
 /// A hand that has not moved anything for so long rests: time to make programs.
 constexpr auto rest = std::chrono::milliseconds(250);
-/// What a picture may take while a hand moves something.
+/// What a picture may take while a hand moves something, and the first one after an edit.
 constexpr double interactive_milliseconds = 80.0;
+/// What one step may take, so that an edit is seen soon.
+constexpr double step_milliseconds = 25.0;
 /// A picture of an unfinished frame is shown after so long.
 constexpr auto longest_wait = std::chrono::milliseconds(150);
 /// Scenes with more nodes get no program with every number live: its compilation takes seconds on llvmpipe (27 nodes 0.8 s,
@@ -58,6 +60,7 @@ struct RenderThread::State {
     double milliseconds_per_pixel_sample = 0.0;  ///< measured on the last frame; 0: not yet
     bool unshown = false;                        ///< another view, other settings or a finished frame
     int shown_samples = 0;
+    bool preview = false;                        ///< the first picture after an edit, quick and small
     bool gave_up = false;                        ///< background compilation failed for this scene: do not try again
 
     void run();
@@ -68,9 +71,10 @@ struct RenderThread::State {
     void work();
     void show();
     bool finished() const {
-        return current.max_frames > 0 && renderer->statistics().frames >= current.max_frames && !current.interacting;
+        return current.max_frames > 0 && renderer->statistics().frames >= current.max_frames && !quick();
     }
-    glm::ivec2 picture_size() const;
+    bool quick() const { return current.interacting || preview; }
+    glm::ivec2 quick_size() const;
 };
 
 RenderThread::RenderThread(std::unique_ptr<Context> context) : state_(std::make_unique<State>()) {
@@ -142,9 +146,9 @@ bool RenderThread::State::wait_for_work() {
     return true;
 }
 
-/// While a hand moves something, so small that a picture with one sample keeps to its time.
-glm::ivec2 RenderThread::State::picture_size() const {
-    if (!current.interacting || milliseconds_per_pixel_sample <= 0.0) return current.size;
+/// So small that a picture with one sample keeps to its time.
+glm::ivec2 RenderThread::State::quick_size() const {
+    if (milliseconds_per_pixel_sample <= 0.0) return glm::max(current.size / 8, glm::ivec2(1));
     const double pixels = interactive_milliseconds / (2.0 * milliseconds_per_pixel_sample);  // 2: one sample, and the camera's
     const double full = static_cast<double>(current.size.x) * current.size.y;
     int divisor = 1;
@@ -157,6 +161,7 @@ void RenderThread::State::take_request() {
     gave_up = false;
     if (!current.scene || current.size.x <= 0 || current.size.y <= 0) return;
     const Scene& scene = *current.scene;
+    preview = !renderer->keeps_samples(scene, options) && quick_size() != current.size;
     // Whatever is there already, the fastest first; a structure not met before has to be compiled.
     if (!renderer->needs_compile(scene, Tier::specialised)) update(Tier::specialised, 0);
     else if (current.tuned && !renderer->needs_compile(scene, Tier::specialised, current.tuned)) update(Tier::specialised, current.tuned);
@@ -165,9 +170,12 @@ void RenderThread::State::take_request() {
 }
 
 void RenderThread::State::update(Tier tier, Id tuned) {
-    options.size = picture_size();
+    options.size = quick() ? quick_size() : current.size;
     options.view = current.view;
-    options.samples = current.interacting ? 1 : 0;
+    options.samples = quick() ? 1 : 0;
+    if (milliseconds_per_pixel_sample > 0.0)
+        options.batch = static_cast<std::size_t>(step_milliseconds / milliseconds_per_pixel_sample) / 64 * 64;
+    else options.batch = 1 << 12;
     options.tier = tier;
     options.tuned = tuned;
     std::string problem;
@@ -221,7 +229,12 @@ void RenderThread::State::work() {
         }
     }
     const bool late = renderer->statistics().samples != shown_samples && Clock::now() - shown_time > longest_wait;
-    if (renderer->displayable() && (unshown || late)) show();
+    if (!renderer->displayable() || !(unshown || late)) return;
+    show();
+    if (preview && renderer->statistics().frames > 0) {
+        preview = false;
+        update(options.tier, options.tuned);
+    }
 }
 
 void RenderThread::State::show() {

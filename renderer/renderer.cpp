@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 namespace farfield {
@@ -69,8 +70,9 @@ std::vector<LightRecord> light_records(const Scene& scene) {
 }
 
 /// Everything that accumulated samples depend on, as bytes to compare: geometry (the live code and its parameters),
-/// materials, lights, sky, camera, size, seed, bounces.
-std::string transport_bytes(const Scene& scene, const FrameOptions& options) {
+/// materials, lights, sky, camera, seed, bounces. The size of the picture stands apart.
+std::string transport_bytes(const Scene& scene, FrameOptions options) {
+    options.size = {1, 1};
     const GeneratedScene generated = generate(scene, Tier::live);
     std::string bytes = generated.key;
     for (const float value : generated.parameters) append_bytes(bytes, value);
@@ -88,6 +90,10 @@ Renderer::Renderer() {
     statistics_.device = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
 }
 
+bool Renderer::keeps_samples(const Scene& scene, const FrameOptions& options) const {
+    return transport_bytes(scene, options) == transport_;
+}
+
 bool Renderer::update(const Scene& scene, const FrameOptions& options) {
     programs_.select(scene, options.tier, options.tuned);  // may throw; nothing has changed until here
     statistics_.structural_compiles = programs_.structural_compiles();
@@ -96,7 +102,7 @@ bool Renderer::update(const Scene& scene, const FrameOptions& options) {
     statistics_.specialised = options.tier == Tier::specialised && options.tuned == 0;
 
     std::string transport = transport_bytes(scene, options);
-    const bool changed = transport != transport_;
+    const bool changed = transport != transport_ || !targets_ || targets_->size != options.size;
     const bool new_occlusion = scene.settings.ao_radius != scene_.settings.ao_radius;
     scene_ = scene;
     options_ = options;
@@ -128,17 +134,15 @@ void Renderer::discard() {
     statistics_.samples = 0;
 }
 
-std::size_t Renderer::batches() const { return (targets_->pixels() + Batch::capacity - 1) / Batch::capacity; }
-
-Work Renderer::work(std::size_t batch) const {
-    const std::size_t first = batch * Batch::capacity;
-    return {programs_, *targets_, batch_, first, std::min(Batch::capacity, targets_->pixels() - first),
+Work Renderer::next_work() const {
+    return {programs_, *targets_, batch_, first_pixel_, std::min(batch_size_, targets_->pixels() - first_pixel_),
             static_cast<int>(scene_.lights.size()), options_.counting};
 }
 
 void Renderer::begin_frame() {
     in_frame_ = true;
-    batch_index_ = 0;
+    batch_size_ = std::clamp<std::size_t>(options_.batch, 64, Batch::capacity);
+    first_pixel_ = 0;
     sample_ = -1;
     frame_samples_ = options_.samples > 0 ? options_.samples : scene_.settings.samples;
     frame_start_ = std::chrono::steady_clock::now();
@@ -157,7 +161,7 @@ bool Renderer::step() {
     materials_.bind_storage(binding::materials);
     lights_.bind_storage(binding::lights);
     counters_.bind_storage(binding::counters);
-    const Work w = work(batch_index_);
+    const Work w = next_work();
     if (sample_ < 0) {
         {
             Timers::Scope scope(timers_, "camera rays");
@@ -171,15 +175,17 @@ bool Renderer::step() {
             far_light_pass_.run(w, far_samples_, scene_.settings.bounces);
         }
         Timers::Scope scope(timers_, "ambient occlusion");
-        occlusion_pass_.run(w, occlusion_samples_, scene_.settings.ao_radius);
+        for (unsigned ray = 0; ray < occlusion_rays(); ++ray)
+            occlusion_pass_.run(w, occlusion_samples_ + ray, scene_.settings.ao_radius);
     }
-    if (++batch_index_ < batches()) return false;
-    batch_index_ = 0;
+    first_pixel_ += w.count;
+    if (first_pixel_ < targets_->pixels()) return false;
+    first_pixel_ = 0;
     if (sample_ < 0) {
         ++completed_cameras_;
     } else {
         ++far_samples_;
-        ++occlusion_samples_;
+        occlusion_samples_ += occlusion_rays();
         statistics_.samples = static_cast<int>(far_samples_);
     }
     if (++sample_ < frame_samples_) return false;
@@ -201,7 +207,7 @@ void Renderer::finish_frame() {
 }
 
 bool Renderer::displayable() const {
-    const bool mixed = in_frame_ && sample_ < 0 && batch_index_ > 0;  // some pixels have one camera sample more
+    const bool mixed = in_frame_ && sample_ < 0 && first_pixel_ > 0;  // some pixels have one camera sample more
     return far_samples_ > 0 && !mixed;
 }
 

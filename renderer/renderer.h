@@ -26,6 +26,7 @@ struct FrameOptions {
     Id tuned = 0;                   ///< node with live parameters in the specialised tier
     int samples = 0;                ///< hemisphere rays per pixel and frame; 0: the scene's setting
     bool counting = false;          ///< count rays and evaluations; costs a little
+    std::size_t batch = Batch::capacity;  ///< pixels for each step, at most Batch::capacity; changes no bit of the picture
 };
 
 class Renderer {
@@ -38,6 +39,9 @@ public:
     bool update(const Scene& scene, const FrameOptions& options);
     /// Whether `update` with these would have to compile.
     bool needs_compile(const Scene& scene, Tier tier, Id tuned = 0) const { return !programs_.has(scene, tier, tuned); }
+
+    /// Whether `update` with these would keep the accumulated samples, but for a change of size.
+    bool keeps_samples(const Scene& scene, const FrameOptions& options) const;
 
     /// One bounded piece of the current frame. True when that finished the frame.
     bool step();
@@ -58,8 +62,10 @@ private:
     void begin_frame();
     void finish_frame();
     void synthesise(View view);
-    Work work(std::size_t batch) const;
-    std::size_t batches() const;
+    Work next_work() const;
+    /// For each far-light sample. One ray alone answers black or white, so the first sample takes more: a first picture without
+    /// speckle for a few percent of its time.
+    unsigned occlusion_rays() const { return occlusion_samples_ == 0 ? 4 : 1; }
 
     TracePrograms programs_;
     CameraPass camera_pass_;
@@ -80,7 +86,8 @@ private:
 
     // The frame being rendered: batch after batch the camera and direct light, then sample after sample the far light.
     bool in_frame_ = false;
-    std::size_t batch_index_ = 0;
+    std::size_t batch_size_ = 0;
+    std::size_t first_pixel_ = 0;  ///< of the next batch
     int sample_ = -1;  ///< -1: camera and direct light
     int frame_samples_ = 0;
     int completed_cameras_ = 0;   ///< frames whose camera pass is in the accumulators
