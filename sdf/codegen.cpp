@@ -109,10 +109,10 @@ public:
         if (!is_empty(scene_.root)) result = node(scene_.root, "p", 0, body, "    ");
         Lines all;
         all.append(functions_);
-        all.add(with_material_ ? "uint scene_material(vec3 p) {" : "float scene_distance(vec3 p) {");
+        all.add(with_material_ ? "float scene_surface(vec3 p, out uint material) {" : "float scene_distance(vec3 p) {");
         all.append(body);
-        const std::string nothing = with_material_ ? "0u" : literal(empty_distance);
-        all.add(fmt::format("    return {};", !result ? nothing : with_material_ ? result->material : result->distance));
+        if (with_material_) all.add(fmt::format("    material = {};", result ? result->material : "0u"));
+        all.add(fmt::format("    return {};", result ? result->distance : literal(empty_distance)));
         all.add("}");
         return all;
     }

@@ -60,14 +60,14 @@ void main() {
     vec3 p = ray.origin + t * ray.direction;
     vec3 gradient = vec3(0.0);
     uint material = 0u;
-    // Loops, not ifs: llvmpipe skips only loops.
+    // A loop, not an if: llvmpipe skips only loops. The corners' evaluations bring the material along, so that the scene stands
+    // in the program twice, not three times.
     int corners = found ? surface_wanted * 4 : 0;
     for (int k = 0; k < corners; ++k) {
         // Corners of a tetrahedron: (1,1,1), (1,-1,-1), (-1,1,-1), (-1,-1,1).
         vec3 e = vec3(k < 2 ? 1.0 : -1.0, (k & 1) == 0 ? 1.0 : -1.0, k == 0 || k == 3 ? 1.0 : -1.0);
-        gradient += e * scene_distance(p + e * max(epsilon, 4.0 * spacing + 1e-4));
+        gradient += e * scene_surface(p + e * max(epsilon, 4.0 * spacing + 1e-4), material);
     }
-    for (int k = 0; k < corners; k += 4) material = scene_material(p);
 
     float steepness = dot(gradient, gradient);
     vec3 normal = steepness > 0.0 ? gradient * inversesqrt(steepness) : -ray.direction;
