@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 
@@ -43,6 +44,7 @@ struct Lines {
         if (!comment.empty()) {
             if (!code.empty()) line += std::string(code.size() < column ? column - code.size() : 1, ' ') + " ";
             line += "// " + comment;
+            std::replace(line.begin(), line.end(), '\\', '/');  // at the end of a line it would continue the comment
         }
         text += line + "\n";
         if (!code.empty()) key += code + "\n";
@@ -165,7 +167,7 @@ private:
         return numbers;
     }
 
-    std::string comment(const Node& n) const {
+    static std::string comment(const Node& n) {
         const KindInfo& kind = info(n.kind);
         return n.name.empty() ? kind.key : kind.takes_children() ? fmt::format("{} ({})", n.name, kind.key) : n.name;
     }

@@ -54,6 +54,14 @@ TEST(Codegen, RenamingChangesTheTextAndNotTheKey) {
     }
 }
 
+TEST(Codegen, NoNameReachesTheCode) {
+    Scene scene = ring_on_box();
+    apply(scene, SetName{{ObjectType::node, first_child(scene)}, "back\\slash \\"});
+    const GeneratedScene generated = generate(scene, Tier::specialised);
+    EXPECT_EQ(generated.text.find('\\'), std::string::npos);
+    EXPECT_NE(generated.text.find("// back/slash /\n"), std::string::npos);
+}
+
 TEST(Codegen, NoParameterEditChangesTheLiveKey) {
     std::mt19937 random(1);
     for (unsigned seed = 0; seed < 20; ++seed) {

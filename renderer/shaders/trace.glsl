@@ -14,6 +14,7 @@ uniform int counting;        // 1: add to the counters
 
 const int step_limit = 256;
 const float beta = 0.5;
+const float near_enough = 30.0;  // epsilons: three pixels of a camera ray
 const float smallest_epsilon = 1e-5;
 
 void main() {
@@ -53,9 +54,10 @@ void main() {
         stride = 2.0 * max(radius, 0.0) / (1.0 - slope);
     }
     bool exhausted = steps >= step_limit && !found && t < ray.reach;
+    // Out of steps: a grazing ray has come near a surface, any other has met nothing.
     if (exhausted) t = best_t;
     else if (found) t += max(radius, 0.0);
-    found = (found && t < ray.reach) || exhausted;
+    found = (found && t < ray.reach) || (exhausted && best < near_enough);
 
     vec3 p = ray.origin + t * ray.direction;
     vec3 gradient = vec3(0.0);
