@@ -6,14 +6,14 @@ namespace farfield {
 
 Scene new_scene() {
     Scene scene;
-    scene.sky.horizon = glm::vec3(0.45f, 0.5f, 0.55f);
-    scene.sky.zenith = glm::vec3(0.2f, 0.35f, 0.6f);
+    scene.sky.horizon = glm::vec3(0.3f, 0.33f, 0.37f);
+    scene.sky.zenith = glm::vec3(0.14f, 0.22f, 0.38f);
     Light sun;
     sun.id = scene.new_id();
     sun.name = "sun";
     sun.kind = LightKind::directional;
     sun.direction = glm::vec3(-0.5f, -1.0f, -0.4f);
-    sun.intensity = glm::vec3(2.5f, 2.4f, 2.2f);
+    sun.intensity = glm::vec3(2.6f, 2.45f, 2.2f);
     scene.lights.push_back(sun);
     return scene;
 }

@@ -21,7 +21,7 @@ int layout_key(int key, int scancode) {
 
 static_assert(escape_key == GLFW_KEY_ESCAPE);
 
-void InputQueue::moved(ImVec2 to) {
+void InputQueue::move(ImVec2 to) {
     // Of several moves in a row only the last counts.
     if (!events_.empty() && events_.back().kind == Kind::move) events_.back().position = to;
     else events_.push_back({Kind::move, 0, 0, 0, 0, to});
@@ -31,12 +31,14 @@ std::vector<KeyPress> InputQueue::deliver(GLFWwindow* window) {
     std::vector<KeyPress> pressed;
     std::vector<int> keys;
     unsigned buttons = 0;
+    bool moved = false;
     for (; !events_.empty(); events_.pop_front()) {
         const Event& e = events_.front();
-        // What follows a click belongs to the next frame, and so does the second change of the same key.
+        // What follows a click belongs to the next frame, and so does the release of any key after a press: that of Ctrl
+        // would turn Ctrl+A into A.
         if (buttons != 0 && e.kind != Kind::button) break;
         if (e.kind == Kind::key) {
-            if (std::find(keys.begin(), keys.end(), e.code) != keys.end()) break;
+            if (e.action == GLFW_RELEASE ? !pressed.empty() : std::find(keys.begin(), keys.end(), e.code) != keys.end()) break;
             keys.push_back(e.code);
             if (e.action != GLFW_RELEASE)
                 pressed.push_back({layout_key(e.code, e.scancode), (e.modifiers & GLFW_MOD_CONTROL) != 0,
@@ -46,11 +48,13 @@ std::vector<KeyPress> InputQueue::deliver(GLFWwindow* window) {
             ImGui_ImplGlfw_CharCallback(window, static_cast<unsigned>(e.code));
         } else if (e.kind == Kind::button) {
             if (e.code < 0 || e.code >= static_cast<int>(std::size(down_))) continue;
-            if (buttons & (1u << e.code)) break;
+            // A drag begins where the mouse stood and ends where it went: the way there has a frame of its own.
+            if (moved || (buttons & (1u << e.code))) break;
             buttons |= 1u << e.code;
             down_[e.code] = e.action == GLFW_PRESS;
         } else if (e.kind == Kind::move) {
             mouse_ = e.position;
+            moved = true;
         } else {
             ImGui_ImplGlfw_ScrollCallback(window, e.position.x, e.position.y);
         }

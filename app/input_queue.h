@@ -25,8 +25,8 @@ public:
     void key(int key, int scancode, int action, int modifiers) { events_.push_back({Kind::key, key, scancode, action, modifiers, {}}); }
     void character(unsigned code) { events_.push_back({Kind::character, static_cast<int>(code), 0, 0, 0, {}}); }
     void button(int button, int action) { events_.push_back({Kind::button, button, 0, action, 0, {}}); }
-    void moved(ImVec2 to);
-    void scrolled(ImVec2 by) { events_.push_back({Kind::scroll, 0, 0, 0, 0, by}); }
+    void move(ImVec2 to);
+    void scroll(ImVec2 by) { events_.push_back({Kind::scroll, 0, 0, 0, 0, by}); }
 
     bool empty() const { return events_.empty(); }
     /// Hands the next events to ImGui; to be called between the backends' NewFrame and ImGui's. Returns the keys that

@@ -22,32 +22,42 @@ void panel(const char* name, ImVec2 low, ImVec2 size, Draw draw) {
     ImGui::EndChild();
 }
 
-/// What is wrong, over the full width below the menu. Returns its height; sets `dismissed` when the user has read it.
+/// What is wrong, at the upper end of the picture and over it: a picture of another size would have to begin anew.
+/// Returns its height; sets `dismissed` when the user has read it.
 float message_bar(Ui& ui, ImVec2 low, float width, const std::string& message, bool can_dismiss, bool& dismissed) {
     if (message.empty()) return 0.0f;
-    const float pad = ui.theme.px(10.0f), button = can_dismiss ? ui.theme.px(76.0f) : 0.0f;
-    const float room = width - 3.0f * pad - button;
+    const float pad = ui.theme.px(10.0f), button = can_dismiss ? ui.theme.px(76.0f) + pad : 0.0f;
+    const float room = width - 2.0f * pad - button;
     const ImVec2 text = ImGui::CalcTextSize(message.c_str(), nullptr, false, room);
     // A compiler's message can be long: some lines of it are shown, the rest scrolls.
-    const float lines = std::min(text.y, 6.0f * ImGui::GetTextLineHeight());
-    const float height = std::max(lines, ImGui::GetFrameHeight()) + 0.8f * pad;
-    ImGui::SetCursorScreenPos(low);
-    ImGui::PushStyleColor(ImGuiCol_ChildBg, ui.theme.error_background);
-    ImGui::BeginChild("message", {width, height});
+    const float lines = std::min(text.y, 8.0f * ImGui::GetTextLineHeight()) + 1.0f;
+    const float height = std::max(lines, ImGui::GetFrameHeight()) + 1.2f * pad;
+    ImGui::SetNextWindowPos(low);
+    ImGui::SetNextWindowSize({width, height});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, ui.theme.error_background);
+    ImGui::PushStyleColor(ImGuiCol_ChildBg, 0);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.0f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
+    ImGui::Begin("##message", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
     ui.report.rectangle("message", "", low, {low.x + width, low.y + height});
-    ImGui::SetCursorPos({pad, (height - lines) * 0.5f});
+    ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + ui.theme.px(3.0f), low.y + height}, ui.theme.error);
+    ImGui::SetCursorPos({pad, std::floor((height - lines) * 0.5f)});
     ImGui::BeginChild("text", {room, lines});
     ImGui::PushTextWrapPos(0.0f);
     ImGui::TextUnformatted(message.c_str());
     ImGui::PopTextWrapPos();
     ImGui::EndChild();
     if (can_dismiss) {
-        ImGui::SetCursorPos({width - pad - button, (height - ImGui::GetFrameHeight()) * 0.5f});
-        dismissed = ImGui::Button("Dismiss", {button, 0.0f});
+        ImGui::SetCursorPos({width - button, std::floor((height - ImGui::GetFrameHeight()) * 0.5f)});
+        dismissed = ImGui::Button("Dismiss", {button - pad, 0.0f});
         ui.report.item("message", "dismiss");
     }
-    ImGui::EndChild();
-    ImGui::PopStyleColor();
+    ImGui::End();
+    ImGui::PopStyleVar(3);
+    ImGui::PopStyleColor(2);
     return height;
 }
 
@@ -78,7 +88,7 @@ Layout::Layout(const Theme& theme)
     : left_(theme.px(250.0f)), right_(theme.px(336.0f)), objects_(theme.px(238.0f)), settings_(theme.px(246.0f)) {}
 
 void Layout::draw_panels(Ui& ui, ImVec2 low, ImVec2 size, const Scene& scene, const RenderedPicture& picture,
-                         LayoutResult& result) {
+                         const std::string& message, LayoutResult& result) {
     const float bar = ui.theme.px(5.0f), least = ui.theme.px(110.0f);
     left_ = std::floor(std::clamp(left_, ui.theme.px(190.0f), size.x * 0.38f));
     right_ = std::floor(std::clamp(right_, ui.theme.px(290.0f), std::max(size.x * 0.45f, ui.theme.px(290.0f))));
@@ -89,8 +99,12 @@ void Layout::draw_panels(Ui& ui, ImVec2 low, ImVec2 size, const Scene& scene, co
 
     panel("tree", low, {left_, tree_height}, [&] { append(result.edits, tree_panel(ui, scene)); });
     panel("objects", {low.x, low.y + tree_height + bar}, {left_, objects_}, [&] { append(result.edits, objects_panel(ui, scene)); });
-    panel("viewport", {low.x + left_ + bar, low.y}, {size.x - left_ - right_ - 2.0f * bar, size.y},
-          [&] { result.viewport = viewport(ui, scene, picture); });
+    const ImVec2 middle{low.x + left_ + bar, low.y};
+    const float width = size.x - left_ - right_ - 2.0f * bar;
+    // A message about the document can be put away; one about the picture stays as long as it is true.
+    const float covered = message.empty() ? message_bar(ui, middle, width, picture.error, false, result.dismissed)
+                                          : message_bar(ui, middle, width, message, true, result.dismissed);
+    panel("viewport", middle, {width, size.y}, [&] { result.viewport = viewport(ui, scene, picture, covered); });
     panel("inspector", {right_x, low.y}, {right_, inspector_height}, [&] { append(result.edits, inspector_panel(ui, scene)); });
     panel("settings", {right_x, low.y + inspector_height + bar}, {right_, settings_},
           [&] { append(result.edits, settings_panel(ui, scene)); });
@@ -117,12 +131,10 @@ LayoutResult Layout::draw(Ui& ui, ImVec2 size, const Document& document, const R
         result.command = command_menus(ui, enabled);
         ImGui::EndMenuBar();
     }
-    ImVec2 low{0.0f, ImGui::GetFrameHeight()};
-    // A message about the document can be put away; one about the picture stays as long as it is true.
-    const bool about_picture = message.empty();
-    low.y += message_bar(ui, low, size.x, about_picture ? picture.error : message, !about_picture, result.dismissed);
+    const ImVec2 low{0.0f, ImGui::GetFrameHeight()};
     const float status = ui.theme.px(22.0f);
-    draw_panels(ui, low, {size.x, std::max(size.y - low.y - status, ui.theme.px(300.0f))}, document.scene(), picture, result);
+    draw_panels(ui, low, {size.x, std::max(size.y - low.y - status, ui.theme.px(300.0f))}, document.scene(), picture, message,
+                result);
     status_line(ui, {0.0f, size.y - status}, {size.x, status}, document, picture);
     ImGui::End();
     return result;

@@ -1,4 +1,4 @@
-// Where everything is in the window: menu, message bar, panels around the picture, status line.
+// Where everything is in the window: menu, panels around the picture, message bar, status line.
 #pragma once
 
 #include "app/editor_commands.h"
@@ -27,7 +27,7 @@ public:
 
 private:
     void draw_panels(Ui& ui, ImVec2 low, ImVec2 size, const Scene& scene, const RenderedPicture& picture,
-                     LayoutResult& result);
+                     const std::string& message, LayoutResult& result);
 
     float left_, right_;         ///< widths of the columns
     float objects_, settings_;   ///< heights of their lower panels

@@ -35,7 +35,7 @@ Edits move_camera(const Scene& scene, float height, bool& wheel) {
 
 }  // namespace
 
-ViewportResult viewport(Ui& ui, const Scene& scene, const RenderedPicture& picture) {
+ViewportResult viewport(Ui& ui, const Scene& scene, const RenderedPicture& picture, float covered) {
     const ImVec2 low = ImGui::GetCursorScreenPos();
     ImVec2 size = ImGui::GetContentRegionAvail();
     size = {std::floor(std::max(size.x, 16.0f)), std::floor(std::max(size.y, 16.0f))};
@@ -61,14 +61,14 @@ ViewportResult viewport(Ui& ui, const Scene& scene, const RenderedPicture& pictu
     if (ui.view != View::result) {
         const ViewInfo& view = views()[static_cast<std::size_t>(ui.view)];
         const ImVec2 text = ImGui::CalcTextSize(view.label);
-        const ImVec2 at{low.x + 2.0f * margin, low.y + 1.5f * margin};
+        const ImVec2 at{low.x + 2.0f * margin, low.y + covered + 1.5f * margin};
         ImDrawList& draw = *ImGui::GetWindowDrawList();
         draw.AddRectFilled({at.x - margin, at.y - margin * 0.5f}, {at.x + text.x + margin, at.y + text.y + margin * 0.5f},
                            ui.theme.overlay, margin * 0.5f);
         draw.AddText(at, ui.theme.accent, view.label);
     }
     if (ui.show_statistics && picture.texture != 0)
-        statistics_overlay(ui, picture.statistics, {high.x - margin, low.y + margin}, size.y - 2.0f * margin);
+        statistics_overlay(ui, picture.statistics, {high.x - margin, low.y + covered + margin}, size.y - covered - 2.0f * margin);
     return result;
 }
 

@@ -14,7 +14,7 @@ struct ViewportResult {
     glm::vec2 size{0.0f};  ///< of the picture, in ImGui units
 };
 
-/// Fills the current ImGui window.
-ViewportResult viewport(Ui& ui, const Scene& scene, const RenderedPicture& picture);
+/// Fills the current ImGui window. `covered`: height at the upper end that something else covers.
+ViewportResult viewport(Ui& ui, const Scene& scene, const RenderedPicture& picture, float covered);
 
 }  // namespace farfield

@@ -105,14 +105,14 @@ void Window::install_callbacks() {
     glfwSetWindowUserPointer(window_, &input_);
     // ImGui learns of the focus and of the mouse leaving by what these leave in the queue.
     glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
-        input_of(w).queue.moved({static_cast<float>(x), static_cast<float>(y)});
+        input_of(w).queue.move({static_cast<float>(x), static_cast<float>(y)});
     });
     glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int entered) {
-        if (!entered) input_of(w).queue.moved({-1e6f, -1e6f});
+        if (!entered) input_of(w).queue.move({-1e6f, -1e6f});
     });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) { input_of(w).queue.button(button, action); });
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
-        input_of(w).queue.scrolled({static_cast<float>(x), static_cast<float>(y)});
+        input_of(w).queue.scroll({static_cast<float>(x), static_cast<float>(y)});
     });
     glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int modifiers) {
         if (key >= 0) input_of(w).queue.key(key, scancode, action, modifiers);

@@ -58,6 +58,9 @@ class Display:
         return subprocess.run(["import", "-silent", "-window", "root", "-crop", f"{width}x{height}+{x}+{y}", "-depth", "8",
                                "rgb:-"], env=self.environment, check=True, capture_output=True, timeout=PATIENCE).stdout
 
+    def save(self, file):
+        subprocess.run(["import", "-silent", "-window", "root", file], env=self.environment, timeout=PATIENCE)
+
 
 class Editor:
     """The program, its report, and hands to use it."""
@@ -103,13 +106,14 @@ class Editor:
 
     def place(self, control):
         """The rectangle of a control, once it stands still."""
-        last = None
+        last, since = None, time.monotonic()
 
         def still(report):
-            nonlocal last
+            nonlocal last, since
             now = report["controls"].get(control)
-            before, last = last, now
-            return now is not None and now == before
+            if now != last:
+                last, since = now, time.monotonic()
+            return now is not None and time.monotonic() - since > 0.25
 
         return self.wait(f"control {control}", still)["controls"][control]
 
@@ -139,7 +143,13 @@ class Editor:
         self.display.xdotool("key", *keys)
 
     def type(self, text):
+        """Into the field that takes text, once there is one."""
+        self.wait("a text field", lambda r: r["typing"])
         self.display.xdotool("type", "--delay", 30, text)
+
+    def enter(self, text):
+        self.type(text)
+        self.key("Return")
 
     def viewport(self):
         return self.display.picture(*self.place("viewport"))
@@ -191,9 +201,8 @@ def type_values(editor):
         for control, text in (("radius", "0.7"), ("translate/y", "1.5"), ("translate/z", "2.5")):
             revision = editor.report()["revision"]
             editor.click("inspector/" + control, times=2)
-            editor.type(text)
-            editor.key("Return")
-            editor.wait(f"the typed {control}", lambda r: r["revision"] > revision)
+            editor.enter(text)
+            editor.wait(f"the typed {control}", lambda r: r["revision"] > revision and not r["typing"])
         editor.settled()
 
     check_seen(editor, type_all, "the sphere")
@@ -257,12 +266,12 @@ def reload(editor, scene, copy):
     editor.click("menu/File/open")
     editor.click("unsaved/discard")
     editor.place("dialog/path")
-    editor.type(str(scene))
-    editor.key("Return")
+    editor.enter(str(scene))
     report = editor.wait("the file is open again", lambda r: r["saved"] and r["revision"] > changed)
     check(report["selection"] == "scene" and report["error"] == "", "an opened file begins afresh")
     editor.key("ctrl+shift+s")
     editor.place("dialog/path")
+    editor.wait("a text field", lambda r: r["typing"])
     editor.key("ctrl+a")
     editor.type(str(copy))
     editor.click("dialog/ok")
@@ -275,8 +284,7 @@ def show_error(editor, bad):
     before = editor.report()
     editor.key("ctrl+o")
     editor.place("dialog/path")
-    editor.type(str(bad))
-    editor.key("Return")
+    editor.enter(str(bad))
     report = editor.wait("an error message", lambda r: "radius" in r["error"])
     check(report["file"] == before["file"] and report["revision"] == before["revision"], "the last good scene stays")
     editor.click("message/dismiss")
@@ -306,7 +314,11 @@ def main():
                      "AO radius", "save", "reload", "an error in a file"]
             for name, step in zip(names, steps):
                 print(f"{name} ...", flush=True)
-                step()
+                try:
+                    step()
+                except Failure:
+                    display.save("editor_window_failure.png")  # where ctest runs: the build folder
+                    raise
             editor.key("ctrl+q")
             check(editor.process.wait(PATIENCE) == 0, "the editor ends with status 0")
     print("all steps passed")

@@ -173,7 +173,7 @@ Edits inspector_panel(Ui& ui, const Scene& scene) {
         value_rows(ui, "inspector", scene, selection, edits);
     } else {
         ImGui::PushTextWrapPos(0.0f);
-        ImGui::TextDisabled("Nothing is selected. Click a node in the tree, or a material or light below it, to edit it here.");
+        ImGui::TextDisabled("Nothing is selected. Click a node in the tree, or a light or material below it, to edit it here.");
         ImGui::PopTextWrapPos();
     }
     ImGui::PopID();

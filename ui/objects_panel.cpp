@@ -52,22 +52,22 @@ Edits objects_panel(Ui& ui, const Scene& scene) {
     panel_title(ui, "Light and materials");
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.theme.px(8.0f), ui.theme.px(2.0f)});
     ImGui::BeginChild("rows", {0.0f, 0.0f}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
-    if (heading(ui, "Materials", "add_material", "Adds a material")) edits.push_back(AddMaterial{});
-    for (const Material& material : scene.materials) {
-        const bool emits = material.emission != glm::vec3(0.0f);
-        const ImVec4 color = display_color(emits ? material.emission : material.albedo);
-        row(ui, "materials", {ObjectType::material, material.id}, material.name, &color, emits ? "emits" : "");
-    }
+    section(ui, "World");
+    const ImVec4 sky = display_color(scene.sky.zenith);
+    row(ui, "world", {ObjectType::sky, 0}, "Sky", &sky, "");
+    row(ui, "world", {ObjectType::camera, 0}, "Camera", nullptr, "");
     if (heading(ui, "Lights", "add_light", "Adds a point light")) edits.push_back(AddLight{});
     for (const Light& light : scene.lights) {
         const ImVec4 color = display_color(light.intensity);
         row(ui, "lights", {ObjectType::light, light.id}, light.name, &color, light_kind_keys[static_cast<int>(light.kind)]);
     }
     if (scene.lights.empty()) ImGui::TextDisabled("None. Sky and emission still light the scene.");
-    section(ui, "World");
-    const ImVec4 sky = display_color(scene.sky.zenith);
-    row(ui, "world", {ObjectType::sky, 0}, "Sky", &sky, "");
-    row(ui, "world", {ObjectType::camera, 0}, "Camera", nullptr, "");
+    if (heading(ui, "Materials", "add_material", "Adds a material")) edits.push_back(AddMaterial{});
+    for (const Material& material : scene.materials) {
+        const bool emits = material.emission != glm::vec3(0.0f);
+        const ImVec4 color = display_color(emits ? material.emission : material.albedo);
+        row(ui, "materials", {ObjectType::material, material.id}, material.name, &color, emits ? "emits" : "");
+    }
     ImGui::EndChild();
     ImGui::PopStyleVar();
     return edits;

@@ -1,5 +1,6 @@
 #include "ui/report.h"
 
+#include <imgui_internal.h>
 #include <nlohmann/json.hpp>
 
 #include <fstream>
@@ -7,8 +8,15 @@
 namespace farfield {
 
 void Report::item(std::string_view panel, std::string_view name) {
-    if (file_.empty() || !ImGui::IsItemVisible()) return;
-    rectangle(panel, name, ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
+    if (file_.empty()) return;
+    // What has just appeared is laid out for a frame before it is shown in its place.
+    if (const ImGuiWindow* window = ImGui::GetCurrentWindowRead(); window->Hidden || window->RootWindow->Hidden) return;
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    const ImVec2 middle{(low.x + high.x) * 0.5f, (low.y + high.y) * 0.5f};
+    const ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const ImVec2 clip_low = draw.GetClipRectMin(), clip_high = draw.GetClipRectMax();
+    if (middle.x < clip_low.x || middle.y < clip_low.y || middle.x >= clip_high.x || middle.y >= clip_high.y) return;
+    rectangle(panel, name, low, high);
 }
 
 void Report::rectangle(std::string_view panel, std::string_view name, ImVec2 low, ImVec2 high) {
@@ -28,6 +36,7 @@ void Report::write(const ReportState& state, double now) {
     json["file"] = state.file;
     json["error"] = state.error;
     json["selection"] = state.selection;
+    json["typing"] = ImGui::GetIO().WantTextInput;
     json["pictures"] = state.pictures;
     json["structural_compiles"] = s.structural_compiles;
     json["specialisations"] = s.specialisations;

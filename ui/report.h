@@ -30,7 +30,7 @@ public:
     explicit Report(std::filesystem::path file = {}) : file_(std::move(file)) {}
 
     void begin_frame() { controls_.clear(); }
-    /// Records the rectangle of the last ImGui item as "PANEL/NAME", where it is visible.
+    /// Records the rectangle of the last ImGui item as "PANEL/NAME", if its middle is not scrolled out of sight.
     void item(std::string_view panel, std::string_view name);
     void rectangle(std::string_view panel, std::string_view name, ImVec2 low, ImVec2 high);
     /// Writes controls (window pixels: x, y, width, height) and state as JSON when they changed, ten times a second at

@@ -7,7 +7,10 @@
 namespace farfield {
 namespace {
 
-std::string milliseconds(double ms) { return ms < 10.0 ? fmt::format("{:.2f} ms", ms) : fmt::format("{:.0f} ms", ms); }
+std::string duration(double ms) {
+    if (ms >= 1e4) return fmt::format("{:.1f} s", ms * 1e-3);
+    return ms < 10.0 ? fmt::format("{:.2f} ms", ms) : fmt::format("{:.0f} ms", ms);
+}
 
 std::string count(std::uint64_t n) {
     if (n < 10'000) return fmt::format("{}", n);
@@ -41,12 +44,12 @@ void statistics_overlay(Ui& ui, const Statistics& s, ImVec2 corner, float room) 
     ImGui::Begin("##statistics", nullptr, flags);
     if (ImGui::BeginTable("lines", 2, ImGuiTableFlags_SizingStretchProp)) {
         line(ui, "Samples", fmt::format("{}  ({} {})", s.samples, s.frames, s.frames == 1 ? "frame" : "frames"), true);
-        line(ui, "Speed", fmt::format("{:.1f} frames/s", s.frames_per_second), true);
-        line(ui, "Frame", milliseconds(s.frame_milliseconds), true);
-        for (const PassTime& pass : s.passes) line(ui, ("   " + pass.name).c_str(), milliseconds(pass.milliseconds));
+        line(ui, "Speed", fmt::format("{:.{}f} frames/s", s.frames_per_second, s.frames_per_second < 1.0 ? 2 : 1), true);
+        line(ui, "Frame", duration(s.frame_milliseconds), true);
+        for (const PassTime& pass : s.passes) line(ui, ("   " + pass.name).c_str(), duration(pass.milliseconds));
         if (s.rays > 0) line(ui, "Rays", count(s.rays), true);
         if (s.exhausted_rays > 0) line(ui, "   out of steps", count(s.exhausted_rays));
-        line(ui, "Compile", milliseconds(s.compile_milliseconds), true);
+        line(ui, "Compile", duration(s.compile_milliseconds), true);
         line(ui, "   for structure", fmt::format("{}", s.structural_compiles));
         line(ui, "   specialised", fmt::format("{}{}", s.specialisations, s.specialised ? "  (in use)" : ""));
         ImGui::EndTable();

@@ -64,7 +64,7 @@ std::string hint_text(const Parameter& parameter) {
             break;
         default:
             initial = parameter.components() == 1 ? number(0) : fmt::format("{}, {}, {}", number(0), number(1), number(2));
-            initial += fmt::format(" {}", unit_symbol(parameter.unit));
+            if (parameter.unit != Unit::none) initial += fmt::format(" {}", unit_symbol(parameter.unit));
     }
     const bool numeric = parameter.type != ParameterType::choice && parameter.type != ParameterType::flags;
     return fmt::format("Default {}. {}Right-click to reset.", initial,
