@@ -73,6 +73,7 @@ struct RenderThread::State {
     bool finished() const {
         return current.max_frames > 0 && renderer->statistics().frames >= current.max_frames && !quick();
     }
+    bool has_work() const { return current.scene && current.size.x > 0 && current.size.y > 0 && renderer->ready(); }
     bool quick() const { return current.interacting || preview; }
     glm::ivec2 quick_size() const;
 };
@@ -135,7 +136,7 @@ void RenderThread::State::run() {
 /// Takes the next request if there is one; sleeps when there is nothing to do. False when the thread shall end.
 bool RenderThread::State::wait_for_work() {
     std::unique_lock lock(mutex);
-    const bool idle = !current.scene || current.size.x <= 0 || current.size.y <= 0 || (finished() && !unshown);
+    const bool idle = !has_work() || (finished() && !unshown);
     if (idle) wake.wait(lock, [&] { return stop || next; });
     if (stop) return false;
     if (!next) return true;
@@ -212,7 +213,7 @@ bool RenderThread::State::compile_in_background() {
 }
 
 void RenderThread::State::work() {
-    if (!current.scene || current.size.x <= 0 || current.size.y <= 0) return;
+    if (!has_work()) return;
     if (!finished()) {
         if (compile_in_background()) return;
         if (renderer->step()) {

@@ -43,6 +43,9 @@ public:
     /// Whether `update` with these would keep the accumulated samples, but for a change of size.
     bool keeps_samples(const Scene& scene, const FrameOptions& options) const;
 
+    /// Whether an update has succeeded so far; nothing below may be called before.
+    bool ready() const { return targets_.has_value(); }
+
     /// One bounded piece of the current frame. True when that finished the frame.
     bool step();
     /// Whether there is something to show: the whole picture has direct light and a sample of far light.
