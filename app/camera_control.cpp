@@ -28,7 +28,8 @@ Camera orbited(const Camera& camera, glm::vec2 drag, float height) {
     const float turn = glm::pi<float>() / std::max(height, 1.0f);
     const float azimuth = std::atan2(offset.x, offset.z) - drag.x * turn;
     const float limit = glm::radians(steepest);
-    const float elevation = std::clamp(std::asin(std::clamp(offset.y / distance, -1.0f, 1.0f)) + drag.y * turn, -limit, limit);
+    const float elevation =
+        std::clamp(std::asin(std::clamp(offset.y / distance, -1.0f, 1.0f)) + drag.y * turn, -limit, limit);
     Camera moved = camera;
     moved.position = camera.target + distance * vec3(std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
                                                      std::cos(elevation) * std::cos(azimuth));

@@ -147,9 +147,7 @@ private:
                 if (std::holds_alternative<AddMaterial>(edit)) ui_.selection = {ObjectType::material, id};
                 if (std::holds_alternative<AddLight>(edit)) ui_.selection = {ObjectType::light, id};
                 if (const auto* moved = std::get_if<MoveNode>(&edit)) ui_.reveal = moved->node;
-            } catch (const EditError& error) {
-                files_.show_error(error.what());
-            }
+            } catch (const EditError& error) { files_.show_error(error.what()); }
         }
     }
 
@@ -166,7 +164,8 @@ private:
         const Node* parent = removed ? find_parent(document_.scene(), removed->node) : nullptr;
         if (!parent) return ui_.selection;
         const auto& siblings = parent->children;
-        const auto it = std::find_if(siblings.begin(), siblings.end(), [&](const Node& n) { return n.id == removed->node; });
+        const auto it =
+            std::find_if(siblings.begin(), siblings.end(), [&](const Node& n) { return n.id == removed->node; });
         if (it + 1 != siblings.end()) return {ObjectType::node, (it + 1)->id};
         if (it != siblings.begin()) return {ObjectType::node, (it - 1)->id};
         return {ObjectType::node, parent->id};
@@ -215,8 +214,10 @@ private:
             const auto command = command_for(press);
             const bool busy = ImGui::GetIO().WantTextInput || (held_ && ImGui::IsAnyMouseDown());
             if (asked || (busy && command != CommandId::save)) continue;
-            if (const auto view = view_for(press)) ui_.view = *view;
-            else if (command && enabled(*command)) perform(*command);
+            if (const auto view = view_for(press))
+                ui_.view = *view;
+            else if (command && enabled(*command))
+                perform(*command);
         }
     }
 
@@ -240,9 +241,10 @@ private:
     }
 
     void write_report() {
-        ui_.report.write({picture_.statistics, document_.revision(), pictures_, document_.saved(), document_.file().string(),
-                          files_.error().empty() ? picture_.error : files_.error(), selection_name()},
-                         seconds());
+        ui_.report.write(
+            {picture_.statistics, document_.revision(), pictures_, document_.saved(), document_.file().string(),
+             files_.error().empty() ? picture_.error : files_.error(), selection_name()},
+            seconds());
     }
 
     // In order of life: the renderer's context goes before the window it shares with.

@@ -88,7 +88,8 @@ std::optional<CommandId> command_for(const KeyPress& press) {
 
 std::optional<View> view_for(const KeyPress& press) {
     const int index = press.key - '1';
-    if (press.ctrl || press.alt || press.shift || index < 0 || index >= static_cast<int>(views().size())) return std::nullopt;
+    if (press.ctrl || press.alt || press.shift || index < 0 || index >= static_cast<int>(views().size()))
+        return std::nullopt;
     return views()[static_cast<std::size_t>(index)].view;
 }
 
@@ -102,7 +103,8 @@ std::optional<CommandId> command_menus(Ui& ui, const std::function<bool(CommandI
         for (const Command& command : commands) {
             if (std::strcmp(command.menu, menu) != 0) continue;
             if (command.separated) ImGui::Separator();
-            if (ImGui::MenuItem(command.label, command.key_text, is_on(ui, command.id), enabled(command.id))) chosen = command.id;
+            if (ImGui::MenuItem(command.label, command.key_text, is_on(ui, command.id), enabled(command.id)))
+                chosen = command.id;
             ui.report.item(fmt::format("menu/{}", menu), command.name);
         }
         ImGui::EndMenu();
@@ -113,8 +115,9 @@ std::optional<CommandId> command_menus(Ui& ui, const std::function<bool(CommandI
 void shortcut_list(Ui& ui) {
     if (!ui.show_shortcuts) return;
     ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
-    if (ImGui::Begin("Keys and mouse", &ui.show_shortcuts,
-                     ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse)) {
+    if (ImGui::Begin(
+            "Keys and mouse", &ui.show_shortcuts,
+            ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse)) {
         if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_PadOuterX)) {
             for (const auto& [action, effect] : mouse) table_line(ui, action, effect);
             for (const Command& command : commands) table_line(ui, command.key_text, command.label);

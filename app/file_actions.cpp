@@ -25,8 +25,10 @@ void FileActions::open(const std::filesystem::path& file) {
 }
 
 void FileActions::save() {
-    if (document_.file().empty()) save_as();
-    else write(document_.file());
+    if (document_.file().empty())
+        save_as();
+    else
+        write(document_.file());
 }
 
 void FileActions::save_as() {
@@ -50,9 +52,7 @@ void FileActions::load(const std::filesystem::path& file) {
     try {
         document_.open(file);
         error_.clear();
-    } catch (const SceneFileError& error) {
-        error_ = error.what();
-    }
+    } catch (const SceneFileError& error) { error_ = error.what(); }
 }
 
 bool FileActions::write(const std::filesystem::path& file) {
@@ -68,14 +68,17 @@ bool FileActions::write(const std::filesystem::path& file) {
 
 void FileActions::draw(Ui& ui) {
     if (const auto file = dialog_.draw(ui)) {
-        if (mode_ == FileDialog::Mode::open) load(*file);
-        else if (write(*file) && after_save_) std::exchange(after_save_, nullptr)();
+        if (mode_ == FileDialog::Mode::open)
+            load(*file);
+        else if (write(*file) && after_save_)
+            std::exchange(after_save_, nullptr)();
     }
 
     const char* title = "Unsaved changes";
     if (std::exchange(ask_, false)) ImGui::OpenPopup(title);
     ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
-    if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings)) return;
+    if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))
+        return;
     ImGui::Text("%s has changes that are not saved.", document_.name().c_str());
     ImGui::Dummy({0.0f, ui.theme.px(6.0f)});
     const ImVec2 size{ui.theme.px(110.0f), 0.0f};

@@ -32,8 +32,8 @@ void FileDialog::enter(const fs::path& folder) {
     entries_.clear();
     problem_.clear();
     std::error_code failed;
-    for (fs::directory_iterator it(folder_, fs::directory_options::skip_permission_denied, failed), end; !failed && it != end;
-         it.increment(failed)) {
+    for (fs::directory_iterator it(folder_, fs::directory_options::skip_permission_denied, failed), end;
+         !failed && it != end; it.increment(failed)) {
         const std::string name = it->path().filename().string();
         std::error_code ignored;
         const bool is_folder = it->is_directory(ignored);
@@ -41,9 +41,8 @@ void FileDialog::enter(const fs::path& folder) {
         entries_.push_back({name, is_folder});
     }
     if (failed) problem_ = fmt::format("This folder cannot be read: {}", failed.message());
-    std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-        return a.folder != b.folder ? a.folder : a.name < b.name;
-    });
+    std::sort(entries_.begin(), entries_.end(),
+              [](const Entry& a, const Entry& b) { return a.folder != b.folder ? a.folder : a.name < b.name; });
 }
 
 fs::path FileDialog::typed() const {
@@ -89,7 +88,8 @@ void FileDialog::draw_path_bar(Ui& ui) {
     fs::path so_far, wanted;
     for (const fs::path& part : folder_) {
         so_far /= part;
-        if (ImGui::GetItemRectMax().x > ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x - ui.theme.px(90.0f))
+        if (ImGui::GetItemRectMax().x >
+            ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x - ui.theme.px(90.0f))
             ImGui::NewLine();
         ImGui::SameLine(0.0f, ui.theme.px(3.0f));
         ImGui::PushID(so_far.c_str());
@@ -100,7 +100,8 @@ void FileDialog::draw_path_bar(Ui& ui) {
 }
 
 void FileDialog::draw_entries(Ui& ui) {
-    const float below = 2.0f * ImGui::GetFrameHeightWithSpacing() + ImGui::GetTextLineHeightWithSpacing() + ui.theme.px(6.0f);
+    const float below =
+        2.0f * ImGui::GetFrameHeightWithSpacing() + ImGui::GetTextLineHeightWithSpacing() + ui.theme.px(6.0f);
     ImGui::PushStyleColor(ImGuiCol_ChildBg, ImGui::GetColorU32(ImGuiCol_WindowBg));
     ImGui::BeginChild("entries", {0.0f, -below}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
     std::string wanted;
@@ -110,8 +111,10 @@ void FileDialog::draw_entries(Ui& ui) {
         if (ImGui::Selectable(label.c_str(), text_ == entry.name,
                               ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups)) {
             const bool twice = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
-            if (!entry.folder) text_ = entry.name, accepted_ = twice, confirm_ = false;
-            else if (twice) wanted = entry.name;
+            if (!entry.folder)
+                text_ = entry.name, accepted_ = twice, confirm_ = false;
+            else if (twice)
+                wanted = entry.name;
         }
         ui.report.item("dialog/entry", entry.name);
         ImGui::PopStyleColor();
@@ -136,18 +139,21 @@ std::optional<fs::path> FileDialog::draw(Ui& ui) {
     if (focus_) ImGui::SetKeyboardFocusHere();
     focus_ = false;
     ImGui::SetNextItemWidth(-FLT_MIN);
-    const bool entered = ImGui::InputTextWithHint("##path", "File name or path", &text_, ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool entered =
+        ImGui::InputTextWithHint("##path", "File name or path", &text_, ImGuiInputTextFlags_EnterReturnsTrue);
     if (ImGui::IsItemEdited()) confirm_ = false, problem_.clear();
     accepted_ |= entered;
     ui.report.item("dialog", "path");
     ImGui::PushStyleColor(ImGuiCol_Text, confirm_ ? ui.theme.accent : ui.theme.error);
-    ImGui::TextUnformatted(confirm_ ? fmt::format("{} exists. Replace it?", typed().filename().string()).c_str() : problem_.c_str());
+    ImGui::TextUnformatted(confirm_ ? fmt::format("{} exists. Replace it?", typed().filename().string()).c_str()
+                                    : problem_.c_str());
     ImGui::PopStyleColor();
 
     const char* action = mode_ == Mode::open ? "Open" : confirm_ ? "Replace" : "Save";
     const float width = ui.theme.px(96.0f);
     ImGui::SetCursorPosX(ImGui::GetWindowContentRegionMax().x - 2.0f * width - ImGui::GetStyle().ItemSpacing.x);
-    const bool cancelled = ImGui::Button("Cancel", {width, 0.0f}) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
+    const bool cancelled =
+        ImGui::Button("Cancel", {width, 0.0f}) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
     ui.report.item("dialog", "cancel");
     ImGui::SameLine();
     ImGui::BeginDisabled(text_.empty());

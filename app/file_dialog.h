@@ -20,7 +20,10 @@ public:
     std::optional<std::filesystem::path> draw(Ui& ui);
 
 private:
-    struct Entry { std::string name; bool folder; };
+    struct Entry {
+        std::string name;
+        bool folder;
+    };
 
     void enter(const std::filesystem::path& folder);
     void draw_path_bar(Ui& ui);

@@ -23,8 +23,10 @@ static_assert(escape_key == GLFW_KEY_ESCAPE);
 
 void InputQueue::move(ImVec2 to) {
     // Of several moves in a row only the last counts.
-    if (!events_.empty() && events_.back().kind == Kind::move) events_.back().position = to;
-    else events_.push_back({Kind::move, 0, 0, 0, 0, to});
+    if (!events_.empty() && events_.back().kind == Kind::move)
+        events_.back().position = to;
+    else
+        events_.push_back({Kind::move, 0, 0, 0, 0, to});
 }
 
 std::vector<KeyPress> InputQueue::deliver(GLFWwindow* window) {
@@ -34,11 +36,12 @@ std::vector<KeyPress> InputQueue::deliver(GLFWwindow* window) {
     bool moved = false;
     for (; !events_.empty(); events_.pop_front()) {
         const Event& e = events_.front();
-        // What follows a click belongs to the next frame, and so does the release of any key after a press: that of Ctrl
-        // would turn Ctrl+A into A.
+        // What follows a click belongs to the next frame, and so does the release of any key after a press: that of
+        // Ctrl would turn Ctrl+A into A.
         if (buttons != 0 && e.kind != Kind::button) break;
         if (e.kind == Kind::key) {
-            if (e.action == GLFW_RELEASE ? !pressed.empty() : std::find(keys.begin(), keys.end(), e.code) != keys.end()) break;
+            if (e.action == GLFW_RELEASE ? !pressed.empty() : std::find(keys.begin(), keys.end(), e.code) != keys.end())
+                break;
             keys.push_back(e.code);
             if (e.action != GLFW_RELEASE)
                 pressed.push_back({layout_key(e.code, e.scancode), (e.modifiers & GLFW_MOD_CONTROL) != 0,

@@ -1,6 +1,6 @@
-// Keeps the order of input. Dear ImGui before 1.87 samples mouse and keys once a frame: a tap or a click that is shorter
-// than a frame is lost or happens where the mouse is by then. Frames take long where the processor draws them, so events
-// wait here and each frame gets as many as it can tell apart.
+// Keeps the order of input. Dear ImGui before 1.87 samples mouse and keys once a frame: a tap or a click that is
+// shorter than a frame is lost or happens where the mouse is by then. Frames take long where the processor draws them,
+// so events wait here and each frame gets as many as it can tell apart.
 #pragma once
 
 #include <imgui.h>
@@ -22,7 +22,9 @@ inline constexpr int escape_key = 256;
 
 class InputQueue {
 public:
-    void key(int key, int scancode, int action, int modifiers) { events_.push_back({Kind::key, key, scancode, action, modifiers, {}}); }
+    void key(int key, int scancode, int action, int modifiers) {
+        events_.push_back({Kind::key, key, scancode, action, modifiers, {}});
+    }
     void character(unsigned code) { events_.push_back({Kind::character, static_cast<int>(code), 0, 0, 0, {}}); }
     void button(int button, int action) { events_.push_back({Kind::button, button, 0, action, 0, {}}); }
     void move(ImVec2 to);

@@ -80,7 +80,9 @@ void status_line(const Ui& ui, ImVec2 low, ImVec2 size, const Document& document
     draw.AddText(font, font->FontSize, {low.x + size.x - width - pad, y}, ui.theme.dim, right.c_str());
 }
 
-void append(Edits& to, Edits from) { to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end())); }
+void append(Edits& to, Edits from) {
+    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+}
 
 }  // namespace
 
@@ -98,14 +100,16 @@ void Layout::draw_panels(Ui& ui, ImVec2 low, ImVec2 size, const Scene& scene, co
     const float tree_height = size.y - objects_ - bar, inspector_height = size.y - settings_ - bar;
 
     panel("tree", low, {left_, tree_height}, [&] { append(result.edits, tree_panel(ui, scene)); });
-    panel("objects", {low.x, low.y + tree_height + bar}, {left_, objects_}, [&] { append(result.edits, objects_panel(ui, scene)); });
+    panel("objects", {low.x, low.y + tree_height + bar}, {left_, objects_},
+          [&] { append(result.edits, objects_panel(ui, scene)); });
     const ImVec2 middle{low.x + left_ + bar, low.y};
     const float width = size.x - left_ - right_ - 2.0f * bar;
     // A message about the document can be put away; one about the picture stays as long as it is true.
     const float covered = message.empty() ? message_bar(ui, middle, width, picture.error, false, result.dismissed)
                                           : message_bar(ui, middle, width, message, true, result.dismissed);
     panel("viewport", middle, {width, size.y}, [&] { result.viewport = viewport(ui, scene, picture, covered); });
-    panel("inspector", {right_x, low.y}, {right_, inspector_height}, [&] { append(result.edits, inspector_panel(ui, scene)); });
+    panel("inspector", {right_x, low.y}, {right_, inspector_height},
+          [&] { append(result.edits, inspector_panel(ui, scene)); });
     panel("settings", {right_x, low.y + inspector_height + bar}, {right_, settings_},
           [&] { append(result.edits, settings_panel(ui, scene)); });
 
@@ -133,8 +137,8 @@ LayoutResult Layout::draw(Ui& ui, ImVec2 size, const Document& document, const R
     }
     const ImVec2 low{0.0f, ImGui::GetFrameHeight()};
     const float status = ui.theme.px(22.0f);
-    draw_panels(ui, low, {size.x, std::max(size.y - low.y - status, ui.theme.px(300.0f))}, document.scene(), picture, message,
-                result);
+    draw_panels(ui, low, {size.x, std::max(size.y - low.y - status, ui.theme.px(300.0f))}, document.scene(), picture,
+                message, result);
     status_line(ui, {0.0f, size.y - status}, {size.x, status}, document, picture);
     ImGui::End();
     return result;

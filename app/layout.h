@@ -29,8 +29,8 @@ private:
     void draw_panels(Ui& ui, ImVec2 low, ImVec2 size, const Scene& scene, const RenderedPicture& picture,
                      const std::string& message, LayoutResult& result);
 
-    float left_, right_;         ///< widths of the columns
-    float objects_, settings_;   ///< heights of their lower panels
+    float left_, right_;        ///< widths of the columns
+    float objects_, settings_;  ///< heights of their lower panels
 };
 
 }  // namespace farfield

@@ -11,10 +11,12 @@ namespace {
 
 void centred_text(const Ui& ui, ImVec2 low, ImVec2 high, float line, const char* text, ImU32 color) {
     const ImVec2 size = ImGui::CalcTextSize(text);
-    const ImVec2 at{std::floor((low.x + high.x - size.x) * 0.5f), std::floor((low.y + high.y - size.y) * 0.5f + line * size.y * 1.5f)};
+    const ImVec2 at{std::floor((low.x + high.x - size.x) * 0.5f),
+                    std::floor((low.y + high.y - size.y) * 0.5f + line * size.y * 1.5f)};
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float pad = ui.theme.px(8.0f);
-    draw.AddRectFilled({at.x - pad, at.y - pad * 0.5f}, {at.x + size.x + pad, at.y + size.y + pad * 0.5f}, ui.theme.overlay, pad * 0.5f);
+    draw.AddRectFilled({at.x - pad, at.y - pad * 0.5f}, {at.x + size.x + pad, at.y + size.y + pad * 0.5f},
+                       ui.theme.overlay, pad * 0.5f);
     draw.AddText(at, color, text);
 }
 
@@ -44,7 +46,7 @@ ViewportResult viewport(Ui& ui, const Scene& scene, const RenderedPicture& pictu
     result.size = {size.x, size.y};
 
     // Row 0 of the texture is the top of the picture, as ImGui has it.
-    if (picture.texture != 0) ImGui::Image((ImTextureID)static_cast<std::intptr_t>(picture.texture), size);
+    if (picture.texture != 0) ImGui::Image((ImTextureID) static_cast<std::intptr_t>(picture.texture), size);
     ImGui::SetCursorScreenPos(low);
     ImGui::InvisibleButton("picture", size, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
     ui.report.item("viewport", "");
@@ -63,12 +65,13 @@ ViewportResult viewport(Ui& ui, const Scene& scene, const RenderedPicture& pictu
         const ImVec2 text = ImGui::CalcTextSize(view.label);
         const ImVec2 at{low.x + 2.0f * margin, low.y + covered + 1.5f * margin};
         ImDrawList& draw = *ImGui::GetWindowDrawList();
-        draw.AddRectFilled({at.x - margin, at.y - margin * 0.5f}, {at.x + text.x + margin, at.y + text.y + margin * 0.5f},
-                           ui.theme.overlay, margin * 0.5f);
+        draw.AddRectFilled({at.x - margin, at.y - margin * 0.5f},
+                           {at.x + text.x + margin, at.y + text.y + margin * 0.5f}, ui.theme.overlay, margin * 0.5f);
         draw.AddText(at, ui.theme.accent, view.label);
     }
     if (ui.show_statistics && picture.texture != 0)
-        statistics_overlay(ui, picture.statistics, {high.x - margin, low.y + covered + margin}, size.y - covered - 2.0f * margin);
+        statistics_overlay(ui, picture.statistics, {high.x - margin, low.y + covered + margin},
+                           size.y - covered - 2.0f * margin);
     return result;
 }
 

@@ -10,7 +10,7 @@ namespace farfield {
 
 struct ViewportResult {
     Edits edits;
-    bool wheel = false;   ///< the edits come from the wheel, which has no press and release
+    bool wheel = false;    ///< the edits come from the wheel, which has no press and release
     glm::vec2 size{0.0f};  ///< of the picture, in ImGui units
 };
 

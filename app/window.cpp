@@ -110,7 +110,8 @@ void Window::install_callbacks() {
     glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int entered) {
         if (!entered) input_of(w).queue.move({-1e6f, -1e6f});
     });
-    glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) { input_of(w).queue.button(button, action); });
+    glfwSetMouseButtonCallback(
+        window_, [](GLFWwindow* w, int button, int action, int) { input_of(w).queue.button(button, action); });
     glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
         input_of(w).queue.scroll({static_cast<float>(x), static_cast<float>(y)});
     });
@@ -130,8 +131,10 @@ void Window::install_callbacks() {
 std::unique_ptr<Context> Window::make_shared_context() { return std::make_unique<SharedContext>(window_); }
 
 bool Window::wait(double seconds) {
-    if (input_.queue.empty()) glfwWaitEventsTimeout(seconds);
-    else glfwPollEvents();
+    if (input_.queue.empty())
+        glfwWaitEventsTimeout(seconds);
+    else
+        glfwPollEvents();
     return std::exchange(input_.arrived, false) || !input_.queue.empty();
 }
 

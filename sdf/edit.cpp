@@ -93,7 +93,8 @@ void check_subtree(const Scene& scene, const Node& node) {
     const KindInfo& kind = info(node.kind);
     check_name(node.name);
     if (node.values.size() != kind.parameters.size())
-        throw EditError(fmt::format("a {} has {} parameters, not {}", kind.label, kind.parameters.size(), node.values.size()));
+        throw EditError(
+            fmt::format("a {} has {} parameters, not {}", kind.label, kind.parameters.size(), node.values.size()));
     const auto check = [](const Parameter& parameter, glm::vec3 value) {
         if (const std::string why = why_refused(parameter, value); !why.empty())
             throw EditError(fmt::format("{}: {}", parameter.key, why));
@@ -116,7 +117,8 @@ void check_fields(const T& object) {
 
 std::vector<Node>::iterator place(Node& parent, int index) {
     const int count = static_cast<int>(parent.children.size());
-    if (index < -1 || index > count) throw EditError(fmt::format("there is no place {} among {} children", index, count));
+    if (index < -1 || index > count)
+        throw EditError(fmt::format("there is no place {} among {} children", index, count));
     return parent.children.begin() + (index < 0 ? count : index);
 }
 
@@ -134,9 +136,7 @@ Id apply_one(Scene& scene, const SetValue& e) {
         throw EditError("direction: expected any length but 0");
     try {
         set_value(scene, e.object, e.key, e.value);
-    } catch (const std::logic_error& error) {
-        throw EditError(error.what());
-    }
+    } catch (const std::logic_error& error) { throw EditError(error.what()); }
     return 0;
 }
 
@@ -229,8 +229,10 @@ Id apply_one(Scene& scene, const MoveNode& e) {
     Node& from = node_for(scene, find_parent(scene, e.node)->id);
     const auto source = position_in(from, e.node);
     if (&from == &to) {
-        if (source < where) std::rotate(source, source + 1, where);
-        else std::rotate(where, source, source + 1);
+        if (source < where)
+            std::rotate(source, source + 1, where);
+        else
+            std::rotate(where, source, source + 1);
         return 0;
     }
     Node taken = std::move(*source);
@@ -323,14 +325,17 @@ std::string describe(const Scene& before, const Edit& edit) {
             [&](const SetName& e) { return fmt::format("rename {}", object_name(before, e.object)); },
             [&](const SetKind& e) { return fmt::format("make {} a {}", node_name(before, e.node), label(e.kind)); },
             [&](const SetLightKind& e) {
-                return fmt::format("make {} {}", name_in(before.lights, e.light), light_kind_keys[static_cast<int>(e.kind)]);
+                return fmt::format("make {} {}", name_in(before.lights, e.light),
+                                   light_kind_keys[static_cast<int>(e.kind)]);
             },
             [&](const SetMaterial& e) { return fmt::format("material of {}", node_name(before, e.node)); },
             [&](const InsertNode& e) { return fmt::format("add {}", display_name(e.node)); },
             [&](const RemoveNode& e) { return fmt::format("delete {}", node_name(before, e.node)); },
             [&](const MoveNode& e) { return fmt::format("move {}", node_name(before, e.node)); },
             [&](const AddMaterial&) { return std::string("add material"); },
-            [&](const RemoveMaterial& e) { return fmt::format("delete material {}", name_in(before.materials, e.material)); },
+            [&](const RemoveMaterial& e) {
+                return fmt::format("delete material {}", name_in(before.materials, e.material));
+            },
             [&](const AddLight&) { return std::string("add light"); },
             [&](const RemoveLight& e) { return fmt::format("delete light {}", name_in(before.lights, e.light)); },
         },

@@ -54,12 +54,17 @@ Edit random_edit(const Scene& scene, std::mt19937& random) {
     };
     const auto any_kind = [&] { return node_kinds()[pick(node_kinds().size())].kind; };
     const auto any_material = [&] { return pick(5) ? scene.materials[pick(scene.materials.size())].id : Id(pick(2)); };
-    const auto any_light = [&] { return scene.lights.empty() ? Id{77777} : scene.lights[pick(scene.lights.size())].id; };
+    const auto any_light = [&] {
+        return scene.lights.empty() ? Id{77777} : scene.lights[pick(scene.lights.size())].id;
+    };
     const std::string name = std::string(1, static_cast<char>('a' + pick(6)));
     switch (pick(12)) {
         case 0: {
-            const ObjectRef objects[] = {{ObjectType::node, any_node()}, {ObjectType::material, any_material()},
-                                         {ObjectType::light, any_light()}, {ObjectType::sky}, {ObjectType::camera},
+            const ObjectRef objects[] = {{ObjectType::node, any_node()},
+                                         {ObjectType::material, any_material()},
+                                         {ObjectType::light, any_light()},
+                                         {ObjectType::sky},
+                                         {ObjectType::camera},
                                          {ObjectType::settings}};
             const ObjectRef object = objects[pick(6)];
             const std::vector<Parameter> list = parameters(scene, object);
@@ -67,7 +72,9 @@ Edit random_edit(const Scene& scene, std::mt19937& random) {
             const Parameter& parameter = list[pick(list.size())];
             return SetValue{object, parameter.key, pick(5) ? random_value(parameter, random) : glm::vec3(-1e9f)};
         }
-        case 1: return SetName{{pick(2) ? ObjectType::node : ObjectType::material, pick(2) ? any_node() : any_material()}, name};
+        case 1:
+            return SetName{{pick(2) ? ObjectType::node : ObjectType::material, pick(2) ? any_node() : any_material()},
+                           name};
         case 2: return SetKind{any_node(), any_kind()};
         case 3: return SetLightKind{any_light(), pick(2) ? LightKind::point : LightKind::directional};
         case 4: return SetMaterial{any_node(), any_material()};
@@ -220,12 +227,8 @@ TEST(Edit, EveryResultIsAValidScene) {
         try {
             farfield::apply(scene, random_edit(scene, random));
             ++carried_out;
-        } catch (const EditError&) {
-            ASSERT_EQ(to_text(scene), before);
-        }
-        if (i % 10 == 0) {
-            ASSERT_NO_THROW(parse_scene(to_text(scene), "memory")) << to_text(scene);
-        }
+        } catch (const EditError&) { ASSERT_EQ(to_text(scene), before); }
+        if (i % 10 == 0) { ASSERT_NO_THROW(parse_scene(to_text(scene), "memory")) << to_text(scene); }
         if (count_nodes(scene.root) > 60) scene = random_scene(static_cast<unsigned>(i), 12);
     }
     EXPECT_GT(carried_out, 1000);
@@ -240,8 +243,7 @@ TEST(History, UndoAllRestoresTheStartAndRedoAllTheEnd) {
         try {
             history.apply(random_edit(history.scene(), random), static_cast<unsigned>(random() % 3));
             ++carried_out;
-        } catch (const EditError&) {
-        }
+        } catch (const EditError&) {}
     }
     ASSERT_GT(carried_out, 100);
     const std::string end = to_text(history.scene());
@@ -267,7 +269,8 @@ TEST(History, OneGestureIsOneStep) {
     Small s;
     History history(s.scene);
     const ObjectRef ball = s.node(s.sphere);
-    for (int i = 1; i <= 30; ++i) history.apply(SetValue{ball, "radius", glm::vec3(0.1f * static_cast<float>(i), 0, 0)}, 5);
+    for (int i = 1; i <= 30; ++i)
+        history.apply(SetValue{ball, "radius", glm::vec3(0.1f * static_cast<float>(i), 0, 0)}, 5);
     history.apply(SetValue{ball, "radius", glm::vec3(9.0f, 0, 0)}, 6);
     history.apply(SetValue{ball, "radius", glm::vec3(8.0f, 0, 0)});
     history.apply(SetValue{ball, "radius", glm::vec3(7.0f, 0, 0)});
@@ -310,11 +313,8 @@ TEST(History, EqualRevisionsMeanEqualScenes) {
         switch (random() % 4) {
             case 0: history.undo(); break;
             case 1: history.redo(); break;
-            default:
-                try {
-                    history.apply(random_edit(history.scene(), random), static_cast<unsigned>(random() % 4));
-                } catch (const EditError&) {
-                }
+            default: try { history.apply(random_edit(history.scene(), random), static_cast<unsigned>(random() % 4));
+                } catch (const EditError&) {}
         }
         const std::string text = to_text(history.scene());
         const auto [entry, fresh] = texts.try_emplace(history.revision(), text);

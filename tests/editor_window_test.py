@@ -55,8 +55,9 @@ class Display:
 
     def picture(self, x, y, width, height):
         """The bytes of a part of the screen, three for each pixel."""
-        return subprocess.run(["import", "-silent", "-window", "root", "-crop", f"{width}x{height}+{x}+{y}", "-depth", "8",
-                               "rgb:-"], env=self.environment, check=True, capture_output=True, timeout=PATIENCE).stdout
+        part = f"{width}x{height}+{x}+{y}"
+        return subprocess.run(["import", "-silent", "-window", "root", "-crop", part, "-depth", "8", "rgb:-"],
+                              env=self.environment, check=True, capture_output=True, timeout=PATIENCE).stdout
 
     def save(self, file):
         subprocess.run(["import", "-silent", "-window", "root", file], env=self.environment, timeout=PATIENCE)
@@ -97,7 +98,8 @@ class Editor:
                 return report
             time.sleep(0.05)
         state = {key: value for key, value in (report or {}).items() if key != "controls"}
-        raise Failure(f"waited in vain for: {what}; last state {state}; controls {sorted((report or {}).get('controls', {}))}")
+        controls = sorted((report or {}).get("controls", {}))
+        raise Failure(f"waited in vain for: {what}; last state {state}; controls {controls}")
 
     def settled(self):
         """Waits for two more pictures, so that what was done before is in the last one."""
@@ -310,8 +312,8 @@ def main():
                 lambda: reload(editor, scene, Path(folder) / "copy.json"),
                 lambda: show_error(editor, Path(folder) / "bad.json"),
             ]
-            names = ["start", "add a sphere under a union", "type values", "drag a radius", "sample count", "blur levels",
-                     "AO radius", "save", "reload", "an error in a file"]
+            names = ["start", "add a sphere under a union", "type values", "drag a radius", "sample count",
+                     "blur levels", "AO radius", "save", "reload", "an error in a file"]
             for name, step in zip(names, steps):
                 print(f"{name} ...", flush=True)
                 try:

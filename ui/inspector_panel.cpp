@@ -59,7 +59,8 @@ void material_row(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
     const Material* material = find_material(scene, node.material);
     const float side = ImGui::GetFrameHeight();
     if (material) {
-        if (ImGui::ColorButton("##open", display_color(material->albedo), ImGuiColorEditFlags_NoTooltip, {side * 1.3f, side}))
+        if (ImGui::ColorButton("##open", display_color(material->albedo), ImGuiColorEditFlags_NoTooltip,
+                               {side * 1.3f, side}))
             ui.selection = {ObjectType::material, material->id};
         ui.report.item("inspector", "material_open");
         tooltip(ui, "Edit this material");
@@ -125,8 +126,10 @@ void inspect_material(Ui& ui, const Scene& scene, const Material& material, Edit
     name_row(ui, ui.inspected, material.name, "a name is needed", edits);
     const int count = uses(scene.root, material.id);
     row_label(ui, "Used by", false);
-    if (&material == scene.materials.data()) ImGui::TextDisabled("%d nodes, and all without one", count);
-    else ImGui::TextDisabled("%d %s", count, count == 1 ? "node" : "nodes");
+    if (&material == scene.materials.data())
+        ImGui::TextDisabled("%d nodes, and all without one", count);
+    else
+        ImGui::TextDisabled("%d %s", count, count == 1 ? "node" : "nodes");
     section(ui, "Surface");
     value_rows(ui, "inspector", scene, ui.inspected, edits);
     delete_button(ui, scene, "Delete material", scene.materials.size() > 1, edits);
@@ -164,7 +167,8 @@ Edits inspector_panel(Ui& ui, const Scene& scene) {
     ImGui::PushID(static_cast<int>(selection.id));
     if (const Node* node = selection.type == ObjectType::node ? find_node(scene, selection.id) : nullptr) {
         inspect_node(ui, scene, *node, edits);
-    } else if (const Material* material = selection.type == ObjectType::material ? find_material(scene, selection.id) : nullptr) {
+    } else if (const Material* material =
+                   selection.type == ObjectType::material ? find_material(scene, selection.id) : nullptr) {
         inspect_material(ui, scene, *material, edits);
     } else if (const Light* light = selection.type == ObjectType::light ? find_light(scene, selection.id) : nullptr) {
         inspect_light(ui, scene, *light, edits);
@@ -173,7 +177,8 @@ Edits inspector_panel(Ui& ui, const Scene& scene) {
         value_rows(ui, "inspector", scene, selection, edits);
     } else {
         ImGui::PushTextWrapPos(0.0f);
-        ImGui::TextDisabled("Nothing is selected. Click a node in the tree, or a light or material below it, to edit it here.");
+        ImGui::TextDisabled(
+            "Nothing is selected. Click a node in the tree, or a light or material below it, to edit it here.");
         ImGui::PopTextWrapPos();
     }
     ImGui::PopID();

@@ -25,7 +25,8 @@ std::optional<NodeKind> kind_menu(Ui& ui, const char* panel, const std::function
     int column = -1;
     for (const Group& group : groups) {
         const auto kinds = node_kinds();
-        if (std::none_of(kinds.begin(), kinds.end(), [&](const KindInfo& k) { return group.holds(k.role) && allowed(k); }))
+        if (std::none_of(kinds.begin(), kinds.end(),
+                         [&](const KindInfo& k) { return group.holds(k.role) && allowed(k); }))
             continue;
         if (group.column != column) {
             if (column >= 0) {

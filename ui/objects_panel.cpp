@@ -10,7 +10,8 @@ void row(Ui& ui, const char* group, ObjectRef object, const std::string& name, c
     ImGui::PushID(static_cast<int>(object.type));
     ImGui::PushID(static_cast<int>(object.id));
     const ImVec2 start = ImGui::GetCursorScreenPos();
-    if (ImGui::Selectable("##row", ui.selection == object, ImGuiSelectableFlags_AllowDoubleClick, {0.0f, ImGui::GetTextLineHeight()})) {
+    if (ImGui::Selectable("##row", ui.selection == object, ImGuiSelectableFlags_AllowDoubleClick,
+                          {0.0f, ImGui::GetTextLineHeight()})) {
         ui.selection = object;
         if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) ui.focus_name = true;
     }
@@ -19,13 +20,15 @@ void row(Ui& ui, const char* group, ObjectRef object, const std::string& name, c
     const ImVec2 high = ImGui::GetItemRectMax();
     const float side = ui.theme.px(11.0f), y = start.y + ImGui::GetTextLineHeight() * 0.5f;
     if (color)
-        draw.AddRectFilled({start.x + ui.theme.px(5.0f), y - side * 0.5f}, {start.x + ui.theme.px(5.0f) + side, y + side * 0.5f},
+        draw.AddRectFilled({start.x + ui.theme.px(5.0f), y - side * 0.5f},
+                           {start.x + ui.theme.px(5.0f) + side, y + side * 0.5f},
                            ImGui::ColorConvertFloat4ToU32(*color), ui.theme.px(2.5f));
     draw.AddText({start.x + ui.theme.px(23.0f), start.y}, ui.theme.text, name.c_str());
     ImFont* font = ui.theme.small_font;
     const float width = font->CalcTextSizeA(font->FontSize, 1e6f, 0.0f, note).x;
     if (high.x - width - ui.theme.px(8.0f) > start.x + ui.theme.px(31.0f) + ImGui::CalcTextSize(name.c_str()).x)
-        draw.AddText(font, font->FontSize, {high.x - width - ui.theme.px(8.0f), y - font->FontSize * 0.5f}, ui.theme.dim, note);
+        draw.AddText(font, font->FontSize, {high.x - width - ui.theme.px(8.0f), y - font->FontSize * 0.5f},
+                     ui.theme.dim, note);
     ImGui::PopID();
     ImGui::PopID();
 }
@@ -59,7 +62,8 @@ Edits objects_panel(Ui& ui, const Scene& scene) {
     if (heading(ui, "Lights", "add_light", "Adds a point light")) edits.push_back(AddLight{});
     for (const Light& light : scene.lights) {
         const ImVec4 color = display_color(light.intensity);
-        row(ui, "lights", {ObjectType::light, light.id}, light.name, &color, light_kind_keys[static_cast<int>(light.kind)]);
+        row(ui, "lights", {ObjectType::light, light.id}, light.name, &color,
+            light_kind_keys[static_cast<int>(light.kind)]);
     }
     if (scene.lights.empty()) ImGui::TextDisabled("None. Sky and emission still light the scene.");
     if (heading(ui, "Materials", "add_material", "Adds a material")) edits.push_back(AddMaterial{});

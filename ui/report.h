@@ -38,7 +38,9 @@ public:
     void write(const ReportState& state, double now);
 
 private:
-    struct Rectangle { int x, y, width, height; };
+    struct Rectangle {
+        int x, y, width, height;
+    };
     std::filesystem::path file_;
     std::map<std::string, Rectangle> controls_;
     std::string written_;

@@ -14,7 +14,8 @@ std::string duration(double ms) {
 
 std::string count(std::uint64_t n) {
     if (n < 10'000) return fmt::format("{}", n);
-    return n < 1'000'000 ? fmt::format("{:.1f} k", static_cast<double>(n) * 1e-3) : fmt::format("{:.1f} M", static_cast<double>(n) * 1e-6);
+    return n < 1'000'000 ? fmt::format("{:.1f} k", static_cast<double>(n) * 1e-3)
+                         : fmt::format("{:.1f} M", static_cast<double>(n) * 1e-6);
 }
 
 void line(const Ui& ui, const char* label, const std::string& value, bool strong = false) {
@@ -39,12 +40,14 @@ void statistics_overlay(Ui& ui, const Statistics& s, ImVec2 corner, float room) 
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {ui.theme.px(2.0f), ui.theme.px(1.0f)});
     ImGui::PushFont(ui.theme.small_font);
-    const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs |
-                                   ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoSavedSettings;
+    const ImGuiWindowFlags flags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                                   ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoFocusOnAppearing |
+                                   ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoSavedSettings;
     ImGui::Begin("##statistics", nullptr, flags);
     if (ImGui::BeginTable("lines", 2, ImGuiTableFlags_SizingStretchProp)) {
         line(ui, "Samples", fmt::format("{}  ({} {})", s.samples, s.frames, s.frames == 1 ? "frame" : "frames"), true);
-        line(ui, "Speed", fmt::format("{:.{}f} frames/s", s.frames_per_second, s.frames_per_second < 1.0 ? 2 : 1), true);
+        line(ui, "Speed", fmt::format("{:.{}f} frames/s", s.frames_per_second, s.frames_per_second < 1.0 ? 2 : 1),
+             true);
         line(ui, "Frame", duration(s.frame_milliseconds), true);
         for (const PassTime& pass : s.passes) line(ui, ("   " + pass.name).c_str(), duration(pass.milliseconds));
         if (s.rays > 0) line(ui, "Rays", count(s.rays), true);

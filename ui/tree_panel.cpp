@@ -11,12 +11,14 @@ namespace {
 constexpr const char* payload_type = "node";
 
 int index_in(const Node& parent, Id child) {
-    const auto it = std::find_if(parent.children.begin(), parent.children.end(), [&](const Node& n) { return n.id == child; });
+    const auto it =
+        std::find_if(parent.children.begin(), parent.children.end(), [&](const Node& n) { return n.id == child; });
     return static_cast<int>(it - parent.children.begin());
 }
 
 bool contains(const Node& node, Id id) {
-    return node.id == id || std::any_of(node.children.begin(), node.children.end(), [&](const Node& n) { return contains(n, id); });
+    return node.id == id ||
+           std::any_of(node.children.begin(), node.children.end(), [&](const Node& n) { return contains(n, id); });
 }
 
 const Node* selected_node(const Ui& ui, const Scene& scene) {
@@ -34,9 +36,11 @@ public:
                                    ImGuiTreeNodeFlags_DefaultOpen | ImGuiTreeNodeFlags_FramePadding;
         if (leaf) flags |= ImGuiTreeNodeFlags_Leaf;
         if (selected) flags |= ImGuiTreeNodeFlags_Selected;
-        if (ui_.reveal != 0 && !leaf && ui_.reveal != node.id && contains(node, ui_.reveal)) ImGui::SetNextItemOpen(true);
+        if (ui_.reveal != 0 && !leaf && ui_.reveal != node.id && contains(node, ui_.reveal))
+            ImGui::SetNextItemOpen(true);
         const float left = ImGui::GetCursorScreenPos().x;
-        const bool open = ImGui::TreeNodeEx(reinterpret_cast<void*>(static_cast<std::uintptr_t>(node.id)), flags, "%s", "");
+        const bool open =
+            ImGui::TreeNodeEx(reinterpret_cast<void*>(static_cast<std::uintptr_t>(node.id)), flags, "%s", "");
         const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
         const std::string name = display_name(node);
         ui_.report.item("tree", name);
@@ -97,8 +101,10 @@ private:
                 ImDrawList& draw = *ImGui::GetForegroundDrawList();
                 const float rounding = ui_.theme.px(3.0f), thickness = ui_.theme.px(2.0f);
                 const float y = where < 0.5f ? low.y - 1.0f : high.y + 1.0f;
-                if (inside) draw.AddRect(low, high, ui_.theme.accent, rounding, 0, thickness);
-                else draw.AddLine({low.x, y}, {high.x, y}, ui_.theme.accent, thickness);
+                if (inside)
+                    draw.AddRect(low, high, ui_.theme.accent, rounding, 0, thickness);
+                else
+                    draw.AddLine({low.x, y}, {high.x, y}, ui_.theme.accent, thickness);
                 const int index = inside ? -1 : index_in(*target, node.id) + (where < 0.5f ? 0 : 1);
                 if (payload->IsDelivery()) edits.push_back(MoveNode{dragged, target->id, index});
             }
@@ -139,7 +145,8 @@ private:
             if (ImGui::MenuItem("Duplicate", "Ctrl+D"))
                 edits.push_back(InsertNode{parent->id, index_in(*parent, node.id) + 1, node});
             const int index = index_in(*parent, node.id), count = static_cast<int>(parent->children.size());
-            if (ImGui::MenuItem("Move up", "Alt+Up", false, index > 0)) edits.push_back(MoveNode{node.id, parent->id, index - 1});
+            if (ImGui::MenuItem("Move up", "Alt+Up", false, index > 0))
+                edits.push_back(MoveNode{node.id, parent->id, index - 1});
             if (ImGui::MenuItem("Move down", "Alt+Down", false, index + 1 < count))
                 edits.push_back(MoveNode{node.id, parent->id, index + 2});
             ImGui::Separator();
@@ -207,7 +214,8 @@ Edits tree_panel(Ui& ui, const Scene& scene) {
     if (ImGui::Button("+ Add", {width, 0.0f}) || ui.open_add) ImGui::OpenPopup("add");
     ui.open_add = false;
     ui.report.item("tree_panel", "add");
-    tooltip(ui, "Adds a shape or an operation", "Into the selected operation, or after the selected shape. Shortcut: A");
+    tooltip(ui, "Adds a shape or an operation",
+            "Into the selected operation, or after the selected shape. Shortcut: A");
     ImGui::SetNextWindowPos({low.x + ui.theme.px(8.0f), high.y + ui.theme.px(2.0f)}, ImGuiCond_Appearing);
     if (ImGui::BeginPopup("add")) {
         if (const auto kind = kind_menu(ui, "add", [](const KindInfo&) { return true; })) {

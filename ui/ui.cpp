@@ -101,9 +101,9 @@ float splitter(Ui& ui, const char* id, ImVec2 low, ImVec2 extent) {
     if (!active && !ImGui::IsItemHovered()) return 0.0f;
     ImGui::SetMouseCursor(upright ? ImGuiMouseCursor_ResizeEW : ImGuiMouseCursor_ResizeNS);
     const ImVec2 inset = upright ? ImVec2(ui.theme.px(1.5f), 0.0f) : ImVec2(0.0f, ui.theme.px(1.5f));
-    ImGui::GetWindowDrawList()->AddRectFilled({low.x + inset.x, low.y + inset.y},
-                                              {low.x + extent.x - inset.x, low.y + extent.y - inset.y},
-                                              ImGui::GetColorU32(active ? ImGuiCol_SeparatorActive : ImGuiCol_SeparatorHovered));
+    ImGui::GetWindowDrawList()->AddRectFilled(
+        {low.x + inset.x, low.y + inset.y}, {low.x + extent.x - inset.x, low.y + extent.y - inset.y},
+        ImGui::GetColorU32(active ? ImGuiCol_SeparatorActive : ImGuiCol_SeparatorHovered));
     if (!active) return 0.0f;
     return upright ? ImGui::GetIO().MouseDelta.x : ImGui::GetIO().MouseDelta.y;
 }

@@ -63,7 +63,8 @@ std::string hint_text(const Parameter& parameter) {
             if (initial.empty()) initial = "none";
             break;
         default:
-            initial = parameter.components() == 1 ? number(0) : fmt::format("{}, {}, {}", number(0), number(1), number(2));
+            initial =
+                parameter.components() == 1 ? number(0) : fmt::format("{}, {}, {}", number(0), number(1), number(2));
             if (parameter.unit != Unit::none) initial += fmt::format(" {}", unit_symbol(parameter.unit));
     }
     const bool numeric = parameter.type != ParameterType::choice && parameter.type != ParameterType::flags;
@@ -88,12 +89,14 @@ bool number_field(const char* id, const Parameter& parameter, float& value, std:
                                        fmt::format("%d{}{}", unit.empty() ? "" : " ", unit).c_str());
             edited = static_cast<float>(whole);
         } else {
-            changed = ImGui::SliderFloat(id, &edited, range->low, range->high, format.c_str(),
-                                         ImGuiSliderFlags_NoRoundToFormat |
-                                             (range->logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None));
+            changed =
+                ImGui::SliderFloat(id, &edited, range->low, range->high, format.c_str(),
+                                   ImGuiSliderFlags_NoRoundToFormat |
+                                       (range->logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None));
         }
         // A drag field takes a double-click by itself, a slider needs to be told.
-        if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) ImGui::SetKeyboardFocusHere(-1);
+        if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
+            ImGui::SetKeyboardFocusHere(-1);
     } else {
         changed = ImGui::DragFloat(id, &edited, drag_speed(parameter, value), parameter.minimum, parameter.maximum,
                                    format.c_str(), ImGuiSliderFlags_NoRoundToFormat);
@@ -144,12 +147,13 @@ bool flag_buttons(Ui& ui, const std::string& name, const char* panel, const Para
     return changed;
 }
 
-/// A swatch that opens a picker, and the linear components beside it. Colours brighter than 1 are a hue times a strength.
+/// A swatch that opens a picker, and the linear components beside it. Colours brighter than 1 are a hue times a
+/// strength.
 bool color_fields(Ui& ui, const std::string& name, const char* panel, const Parameter& parameter, vec3& value) {
     bool changed = false;
     const float side = ImGui::GetFrameHeight();
-    if (ImGui::ColorButton("##swatch", display_color(value), ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoAlpha,
-                           {side * 1.3f, side}))
+    if (ImGui::ColorButton("##swatch", display_color(value),
+                           ImGuiColorEditFlags_NoTooltip | ImGuiColorEditFlags_NoAlpha, {side * 1.3f, side}))
         ImGui::OpenPopup("picker");
     ui.report.item(panel, name + "/swatch");
     tooltip(ui, parameter.tip, hint_text(parameter));
@@ -175,7 +179,8 @@ bool color_fields(Ui& ui, const std::string& name, const char* panel, const Para
         }
         if (bright) {
             ImGui::SetNextItemWidth(ui.theme.px(150.0f));
-            if (ImGui::DragFloat("Strength", &strength, 0.01f * std::max(0.5f, strength), 0.0f, parameter.maximum, "%.3f"))
+            if (ImGui::DragFloat("Strength", &strength, 0.01f * std::max(0.5f, strength), 0.0f, parameter.maximum,
+                                 "%.3f"))
                 value = hue * strength, picked = true;
         }
         for (int i = 0; i < 3; ++i) value[i] = picked ? std::round(value[i] * 1e4f) / 1e4f : value[i];
@@ -210,7 +215,8 @@ bool choice_combo(Ui& ui, const std::string& name, const char* panel, const Para
 
 ImVec4 display_color(vec3 linear) {
     const float most = std::max({linear.x, linear.y, linear.z, 1.0f});
-    return {srgb_from_linear(linear.x / most), srgb_from_linear(linear.y / most), srgb_from_linear(linear.z / most), 1.0f};
+    return {srgb_from_linear(linear.x / most), srgb_from_linear(linear.y / most), srgb_from_linear(linear.z / most),
+            1.0f};
 }
 
 void row_label(const Ui& ui, std::string_view label, bool bright, std::string_view unit) {
@@ -228,7 +234,8 @@ void row_label(const Ui& ui, std::string_view label, bool bright, std::string_vi
     ImGui::SetNextItemWidth(-FLT_MIN);
 }
 
-std::optional<vec3> value_row(Ui& ui, const char* panel, const Parameter& parameter, vec3 value, const SliderRange* range) {
+std::optional<vec3> value_row(Ui& ui, const char* panel, const Parameter& parameter, vec3 value,
+                              const SliderRange* range) {
     const std::string name = parameter.key;
     const std::string_view unit = unit_symbol(parameter.unit);
     bool differs = false;
