@@ -29,8 +29,6 @@ void main() {
     float stride = 0.0;    // step being tried
     float slope = -1.0;    // of the distance along the ray, smoothed
     float epsilon = 0.0;
-    float best = 1e30;     // least distance / epsilon seen, and where: what a grazing ray falls back to
-    float best_t = 0.0;
     bool found = false;
     int steps = 0;
     while (t < ray.reach && !found && steps < step_limit) {
@@ -44,20 +42,17 @@ void main() {
             radius = d;
             epsilon = max(smallest_epsilon, max(ray.footprint * t, spacing + 2.5e-7 * t));
             found = d < epsilon;
-            if (d < best * epsilon) {
-                best = d / epsilon;
-                best_t = t;
-            }
         } else {
             slope = -1.0;
         }
         stride = 2.0 * max(radius, 0.0) / (1.0 - slope);
     }
     bool exhausted = steps >= step_limit && !found && t < ray.reach;
-    // Out of steps: a grazing ray has come near a surface, any other has met nothing.
-    if (exhausted) t = best_t;
-    else if (found) t += max(radius, 0.0);
-    found = (found && t < ray.reach) || (exhausted && best < near_enough);
+    // Out of steps: a ray that grazes a surface has met it, any other has met nothing. Where it stands now decides; the
+    // nearest miss of the whole way would draw fringes around what a ray to the horizon passes.
+    found = found || (exhausted && radius < near_enough * epsilon);
+    if (found) t += max(radius, 0.0);
+    found = found && t < ray.reach;
 
     vec3 p = ray.origin + t * ray.direction;
     vec3 gradient = vec3(0.0);
