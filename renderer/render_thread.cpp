@@ -171,6 +171,7 @@ void RenderThread::State::take_request() {
 }
 
 void RenderThread::State::update(Tier tier, Id tuned) {
+    const glm::ivec2 last_size = options.size;
     options.size = quick() ? quick_size() : current.size;
     options.view = current.view;
     options.samples = quick() ? 1 : 0;
@@ -189,7 +190,7 @@ void RenderThread::State::update(Tier tier, Id tuned) {
     }
     const std::lock_guard lock(mutex);
     error = problem;
-    const double rate = statistics.frames_per_second;
+    const double rate = options.size == last_size ? statistics.frames_per_second : 0.0;
     statistics = renderer->statistics();
     statistics.frames_per_second = rate;
 }
@@ -259,6 +260,7 @@ void RenderThread::State::show() {
     shown_time = Clock::now();
     const std::lock_guard lock(mutex);
     ready = free;
+    statistics.samples = shown_samples;
 }
 
 }  // namespace farfield
