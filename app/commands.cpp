@@ -31,6 +31,19 @@ void write_outputs(Renderer& renderer, const std::vector<std::filesystem::path>&
     }
 }
 
+/// A scene with the settings of the command line, and a renderer in a context of its own.
+struct Headless {
+    Headless(const std::filesystem::path& file, const Overrides& overrides, ContextKind kind) : scene(load_scene(file)) {
+        overrides.apply(scene.settings);
+        context = make_headless_context(kind);
+        context->make_current();
+        renderer.emplace();
+    }
+    Scene scene;
+    std::unique_ptr<Context> context;
+    std::optional<Renderer> renderer;  ///< goes before its context
+};
+
 double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 double median(std::vector<double> values) {
@@ -63,16 +76,13 @@ void Overrides::apply(Settings& settings) const {
 }
 
 int run_render(const RenderOptions& options) {
-    Scene scene = load_scene(options.scene);
-    options.overrides.apply(scene.settings);
-    const auto context = make_headless_context(options.context);
-    context->make_current();
-    Renderer renderer;
+    Headless headless(options.scene, options.overrides, options.context);
+    Renderer& renderer = *headless.renderer;
     FrameOptions frame;
     frame.size = options.size;
     frame.view = options.view;
     frame.seed = options.seed;
-    renderer.update(scene, frame);
+    renderer.update(headless.scene, frame);
     Progress progress("rendering", options.frames);
     for (int i = 0; i < options.frames; ++i) {
         do {
@@ -100,15 +110,13 @@ int run_check(const std::filesystem::path& file) {
 }
 
 int run_bench(const BenchOptions& options) {
-    Scene scene = load_scene(options.scene);
-    options.overrides.apply(scene.settings);
-    const auto context = make_headless_context(options.context);
-    context->make_current();
-    Renderer renderer;
+    Headless headless(options.scene, options.overrides, options.context);
+    const Scene& scene = headless.scene;
+    Renderer& renderer = *headless.renderer;
     FrameOptions frame;
     frame.size = options.size;
     fmt::print("scene     {}, {} nodes\ndevice    {} ({})\npicture   {} x {}, {} samples per frame, {} bounces\n",
-               options.scene.string(), count_nodes(scene.root), renderer.statistics().device, context->name(),
+               options.scene.string(), count_nodes(scene.root), renderer.statistics().device, headless.context->name(),
                options.size.x, options.size.y, scene.settings.samples, scene.settings.bounces);
 
     for (const Tier tier : {Tier::specialised, Tier::live}) {

@@ -67,12 +67,7 @@ TEST(Codegen, NoParameterEditChangesTheLiveKey) {
     for (unsigned seed = 0; seed < 20; ++seed) {
         Scene scene = random_scene(seed, 30);
         const GeneratedScene before = generate(scene, Tier::live);
-        std::vector<Id> ids;
-        const auto collect = [&](const auto& self, const Node& node) -> void {
-            ids.push_back(node.id);
-            for (const Node& child : node.children) self(self, child);
-        };
-        collect(collect, scene.root);
+        const std::vector<Id> ids = all_ids(scene.root);
         for (int edit = 0; edit < 100; ++edit) {
             const ObjectRef node{ObjectType::node, ids[random() % ids.size()]};
             const std::vector<Parameter> all = parameters(scene, node);

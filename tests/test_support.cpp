@@ -58,6 +58,15 @@ TemporaryFolder::~TemporaryFolder() {
     fs::remove_all(path_, ignored);
 }
 
+std::vector<Id> all_ids(const Node& node) {
+    std::vector<Id> ids{node.id};
+    for (const Node& child : node.children) {
+        const std::vector<Id> below = all_ids(child);
+        ids.insert(ids.end(), below.begin(), below.end());
+    }
+    return ids;
+}
+
 glm::vec3 random_value(const Parameter& parameter, std::mt19937& random) {
     glm::vec3 value = parameter.initial;
     for (int i = 0; i < parameter.components(); ++i) {

@@ -36,6 +36,9 @@ private:
 /// that the shapes are of about a metre's size and stand a few metres around the origin.
 Scene random_scene(unsigned seed, int nodes = 20);
 
+/// The ids of a node and everything below it.
+std::vector<Id> all_ids(const Node& node);
+
 /// A value that `parameter` takes, near its default.
 glm::vec3 random_value(const Parameter& parameter, std::mt19937& random);
 

@@ -106,6 +106,13 @@ Material material_of(uint code) {
                     mix(m.emission, other.emission, share), mix(m.exponent, other.exponent, share));
 }
 
+// Irradiance that a light brings to a surface along its shadow ray, when that met nothing; 0 when it did or there was none.
+vec3 irradiance_of(Light light, Ray ray, Hit hit, vec3 normal) {
+    if (ray.reach <= 0.0 || hit.distance >= 0.0) return vec3(0.0);
+    float falloff = light.directional != 0u ? 1.0 : 1.0 / max(ray.reach * ray.reach, 1e-8);
+    return light.intensity * (falloff * dot(normal, ray.direction));
+}
+
 // pcg3d of Jarzynski and Olano, "Hash Functions for GPU Rendering", 2020.
 uvec3 hash(uvec3 v) {
     v = v * 1664525u + 1013904223u;

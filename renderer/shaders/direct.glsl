@@ -9,13 +9,11 @@ uniform uint light_index;
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= ray_count) return;
-    Ray ray = rays[i];
-    if (ray.reach <= 0.0 || hits[i].distance >= 0.0) return;
     Surface s = surfaces[first_pixel + i];
+    if (s.material == no_surface) return;
+    Ray ray = rays[i];
     Material m = material_of(s.material);
-    Light light = lights[light_index];
-    float falloff = light.directional != 0u ? 1.0 : 1.0 / max(ray.reach * ray.reach, 1e-8);
-    vec3 irradiance = light.intensity * (falloff * dot(s.normal, ray.direction));
+    vec3 irradiance = irradiance_of(lights[light_index], ray, hits[i], s.normal);
     vec3 view = normalize(camera_position - s.position);
     float highlight = max(dot(reflect(-ray.direction, s.normal), view), 0.0);
     float lobe = m.specular * (m.exponent + 2.0) / (2.0 * PI) * pow(max(highlight, 1e-6), m.exponent);
