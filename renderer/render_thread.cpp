@@ -163,11 +163,12 @@ void RenderThread::State::take_request() {
     if (!current.scene || current.size.x <= 0 || current.size.y <= 0) return;
     const Scene& scene = *current.scene;
     preview = !renderer->keeps_samples(scene, options) && quick_size() != current.size;
-    // Whatever is there already, the fastest first; a structure not met before has to be compiled.
+    // Whatever is there already, the fastest first; a structure not met before has to be compiled. So has the program for a hand
+    // that was quicker than the rest it should have been made in: it serves all further moves.
     if (!renderer->needs_compile(scene, Tier::specialised)) update(Tier::specialised, 0);
     else if (current.tuned && !renderer->needs_compile(scene, Tier::specialised, current.tuned)) update(Tier::specialised, current.tuned);
     else if (!renderer->needs_compile(scene, Tier::live)) update(Tier::live, 0);
-    else update(Tier::specialised, 0);
+    else update(Tier::specialised, current.interacting ? current.tuned : 0);
 }
 
 void RenderThread::State::update(Tier tier, Id tuned) {
