@@ -15,8 +15,11 @@ namespace {
 
 namespace shapes {
 using namespace glm;
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-parameter"  // GLSL has no parameters without a name
 #include "sdf/shapes.glsl"
 #include "sdf/operations.glsl"
+#pragma GCC diagnostic pop
 }  // namespace shapes
 
 // Adapters from the functions of shapes.glsl and operations.glsl to the uniform signatures of the table: the arguments

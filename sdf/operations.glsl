@@ -114,16 +114,16 @@ float columns_subtract(float a, float b, float radius, float columns) {
     return -columns_union(-a, b, radius, columns);
 }
 
-// As the weights above, for profiles with a number of steps or columns.
-float stepped_union_weight(float a, float b, float radius, float) {
+// As the weights above, for profiles with a number of steps or columns, which does not matter here.
+float stepped_union_weight(float a, float b, float radius, float number) {
     return union_weight(a, b, radius);
 }
 
-float stepped_intersect_weight(float a, float b, float radius, float) {
+float stepped_intersect_weight(float a, float b, float radius, float number) {
     return intersect_weight(a, b, radius);
 }
 
-float stepped_subtract_weight(float a, float b, float radius, float) {
+float stepped_subtract_weight(float a, float b, float radius, float number) {
     return subtract_weight(a, b, radius);
 }
 
