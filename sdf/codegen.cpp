@@ -250,7 +250,7 @@ private:
 
     static std::string combination(const KindInfo& kind, const Numbers& num, const std::string& a, const std::string& b) {
         if (kind.role != Role::combine) return fmt::format("min({}, {})", a, b);
-        if (num.hard) return fmt::format(fmt::runtime(kind.when_zero), a, b);
+        if (num.hard && kind.when_zero) return fmt::format(fmt::runtime(kind.when_zero), a, b);
         return fmt::format("{}({}, {}{})", kind.function, a, b, num.arguments);
     }
 
@@ -258,7 +258,7 @@ private:
     static std::string blend(const KindInfo& kind, const Numbers& num, const Result& so_far, const Result& next) {
         const std::string& a = so_far.distance;
         const std::string& b = next.distance;
-        if (kind.role != Role::combine || num.hard) {
+        if (kind.role != Role::combine || (num.hard && kind.when_zero)) {
             const KindInfo& hard = kind.role == Role::combine ? kind : info(NodeKind::union_);
             return fmt::format("{} ? {} : {}", fmt::format(fmt::runtime(hard.second_shows), a, b), next.material, so_far.material);
         }

@@ -14,12 +14,18 @@
 namespace farfield {
 
 enum class NodeKind {
-    sphere, box, rounded_box, torus, capsule, capped_cylinder, cone, plane, ellipsoid,
-    union_, intersect, subtract,
+    sphere, box, rounded_box, torus, capsule, capped_cylinder, cone, plane,
+    infinite_cylinder, box_frame, capped_torus, link, rounded_cylinder, capped_cone, round_cone,
+    hexagonal_prism, triangular_prism, solid_angle, cut_sphere, cut_hollow_sphere, death_star,
+    vesica, rhombus, octahedron, pyramid, ellipsoid,
+    union_, intersect, subtract, xor_,
+    chamfer_union, chamfer_intersect, chamfer_subtract, round_union, round_intersect, round_subtract,
+    stairs_union, stairs_intersect, stairs_subtract, columns_union, columns_intersect, columns_subtract,
+    pipe, engrave, groove, tongue,
     mirror, repeat, twist, shell, round,
 };
 
-/// How the generated code uses the kind's function of shapes.glsl.
+/// How the generated code uses the kind's function of shapes.glsl or operations.glsl.
 enum class Role {
     primitive,  ///< float f(vec3 p, parameters...): signed distance, no children
     combine,    ///< float f(float a, float b, parameters...): folds the children from first to last
@@ -37,14 +43,19 @@ struct KindInfo {
     const char* label;  ///< in the user interface
     const char* tip;
     Role role;
-    bool exact;  ///< the exact distance (of exact children); otherwise a lower bound of it
+    /// Primitives: the exact distance on both sides. Others: exact outside, with exact children and default parameters.
+    /// Otherwise a lower bound.
+    bool exact;
+    /// |f(a) - f(b)| <= lipschitz |a - b| where the children keep 1. 0: there is no such constant, and what makes the
+    /// distance safe is explained at the function.
+    float lipschitz = 1.0f;
     std::vector<Parameter> parameters;
-    const char* function;  ///< in shapes.glsl
-    /// A second function of shapes.glsl, or null. combine: float f(a, b, parameters...), the fraction of b's material;
+    const char* function;  ///< in shapes.glsl or operations.glsl
+    /// A second function from there, or null. combine: float f(a, b, parameters...), the fraction of b's material;
     /// domain: float f(d, p, parameters...), a safe distance; repeat: int f(parameters...), the number of cells.
     const char* secondary;
     /// combine: GLSL of the distances {0} and {1} to use when all parameters are known to be 0, for the distance and for
-    /// whether the second one's material shows.
+    /// whether the second one's material shows; or null: the functions serve then too.
     const char* when_zero;
     const char* second_shows;
     /// The same functions on the CPU, whichever the role uses.
@@ -62,7 +73,7 @@ std::span<const KindInfo> node_kinds();
 const KindInfo& info(NodeKind kind);
 std::optional<NodeKind> find_kind(std::string_view key);
 
-/// blend_materials of shapes.glsl: two material indices and the share of the second in one code.
+/// blend_materials of operations.glsl: two material indices and the share of the second in one code.
 std::uint32_t blend_materials(std::uint32_t a, std::uint32_t b, float share_of_b);
 inline constexpr std::size_t largest_material_count = 4096;
 

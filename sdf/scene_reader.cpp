@@ -33,9 +33,12 @@ size_t edit_distance(std::string_view a, std::string_view b) {
     return row.back();
 }
 
-/// "expected one of a, b, c (perhaps b)"
+/// "expected one of a, b, c (perhaps b)"; of a long list only the beginning.
 std::string expected_one_of(const Keys& known, std::string_view found) {
-    std::string text = fmt::format("expected {}{}", known.size() == 1 ? "" : "one of ", fmt::join(known, ", "));
+    const bool is_long = known.size() > 20;
+    const auto end = is_long ? known.begin() + 8 : known.end();
+    std::string text = fmt::format("expected {}{}{}", known.size() == 1 ? "" : "one of ",
+                                   fmt::join(known.begin(), end, ", "), is_long ? ", ..." : "");
     auto distance = [&](std::string_view key) { return edit_distance(key, found.substr(0, 64)); };
     auto nearest =
         std::min_element(known.begin(), known.end(), [&](auto a, auto b) { return distance(a) < distance(b); });

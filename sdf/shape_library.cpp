@@ -7,7 +7,7 @@
 
 namespace farfield {
 
-std::string_view embedded_shapes(std::string_view name);  // generated from shapes.glsl by embed.cmake
+std::string_view embedded_shapes(std::string_view name);  // generated from the .glsl files by embed.cmake
 
 namespace {
 
@@ -28,15 +28,15 @@ std::set<std::string> identifiers(std::string_view code) {
     return found;
 }
 
-/// shapes.glsl keeps to one form: comment lines, the signature on a line that starts at its margin, "}" alone at the
+/// The files keep to one form: comment lines, the signature on a line that starts at its margin, "}" alone at the
 /// margin to end the function, an empty line.
 std::vector<Function> parse() {
     std::vector<Function> functions;
-    const std::string_view text = embedded_shapes("shapes.glsl");
+    const std::string text = std::string(embedded_shapes("shapes.glsl")) + std::string(embedded_shapes("operations.glsl"));
     std::string comment, body, name;
     for (std::size_t start = 0; start < text.size();) {
         const std::size_t end = text.find('\n', start);
-        const std::string line(text.substr(start, end - start));
+        const std::string line = text.substr(start, end - start);
         start = end + 1;
         if (name.empty() && line.starts_with("//")) {
             comment += line + "\n";

@@ -1,4 +1,4 @@
-// The functions of shapes.glsl, one by one, so that a program gets only those that it calls.
+// The functions of shapes.glsl and operations.glsl, one by one, so that a program gets only those that it calls.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace farfield {
 
-/// The functions of shapes.glsl that `code` calls, directly or through each other, in the file's order and with their
+/// The functions of shapes.glsl that `code` calls, directly or through each other, in the files' order and with their
 /// comments, each followed by an empty line.
 std::string used_shapes(std::string_view code);
 

@@ -1,10 +1,12 @@
-// The one truth for distance, blend and domain functions. Compiled as GLSL (the functions a scene uses are copied into
-// its program) and, through GLM, as C++ (node_kinds.cpp), so that CPU and GPU cannot drift apart.
-// Both languages accept this: literals with f, vec2(p.x, p.z) for swizzles, no out parameters, no overloads.
+// The one truth for distance, blend and domain functions, with operations.glsl. Compiled as GLSL (the functions a scene
+// uses are copied into its program) and, through GLM, as C++ (node_kinds.cpp), so that CPU and GPU cannot drift apart.
+// Both languages accept this: literals with f, vec2(p.x, p.z) for swizzles, no out parameters, no overloads. A function
+// calls only those before it; operations.glsl follows this file.
 //
 // Distances are signed, in metres, negative inside; p is in the shape's own frame, y up; angles in radians.
 // A function not marked as a bound returns the exact Euclidean distance. Most forms are those that Inigo Quilez
-// collected ("Distance functions", 2008-2024); deviations are explained where they are.
+// collected ("Distance functions", 2008-2024); deviations are explained where they are. Solids of revolution are described
+// in the half plane q = (distance from the y axis, y).
 
 // ---- primitives ----------------------------------------------------------------------------------------------------
 
@@ -47,7 +49,7 @@ float cone(vec3 p, float radius, float half_height) {
     vec2 from_tip = q - vec2(0.0f, half_height);
     float along = clamp(dot(from_tip, side) / max(dot(side, side), 1e-12f), 0.0f, 1.0f);
     vec2 to_side = from_tip - along * side;
-    bool inside = to_side.x < 0.0f && to_base.y > 0.0f;
+    bool inside = from_tip.x * side.y > from_tip.y * side.x && to_base.y > 0.0f;
     float d = sqrt(min(dot(to_base, to_base), dot(to_side, to_side)));
     return inside ? -d : d;
 }
@@ -67,104 +69,186 @@ float ellipsoid(vec3 p, vec3 radii) {
     return k0 < 1.0f ? (k0 - 1.0f) * shortest : k0 * (k0 - 1.0f) / max(k1, 1e-12f);
 }
 
-// ---- combinations: quadratic polynomial blends, 1-Lipschitz; radius is the width of |a - b| that is blended ----------
-
-float smooth_union(float a, float b, float radius) {
-    float h = max(radius - abs(a - b), 0.0f) / max(radius, 1e-9f);
-    return min(a, b) - h * h * radius * 0.25f;
+// Everything within radius of the y axis.
+float infinite_cylinder(vec3 p, float radius) {
+    return length(vec2(p.x, p.z)) - radius;
 }
 
-float smooth_intersect(float a, float b, float radius) {
-    float h = max(radius - abs(a - b), 0.0f) / max(radius, 1e-9f);
-    return max(a, b) + h * h * radius * 0.25f;
+// The twelve edges of a box, as bars of this thickness within its size; the thickness is limited to the smallest half size.
+// Outside, the nearest of the three bars that meet in p's octant; inside, the nearer of the box's faces and the openings.
+float box_frame(vec3 p, vec3 half_size, float thickness) {
+    float t = min(thickness, min(half_size.x, min(half_size.y, half_size.z)));
+    vec3 beyond = abs(p) - half_size;
+    vec3 depth = abs(p) - (half_size - vec3(t));  // from the planes of the bars' inner faces
+    vec3 o = max(beyond, vec3(0.0f));
+    vec3 e = max(o, -depth);
+    float outside = sqrt(min(o.x * o.x + e.y * e.y + e.z * e.z,
+                             min(e.x * e.x + o.y * o.y + e.z * e.z, e.x * e.x + e.y * e.y + o.z * o.z)));
+    vec3 v = max(depth, vec3(0.0f));
+    float to_opening = sqrt(min(v.x * v.x + v.y * v.y, min(v.y * v.y + v.z * v.z, v.z * v.z + v.x * v.x)));
+    float to_face = -max(beyond.x, max(beyond.y, beyond.z));
+    return outside > 0.0f ? outside : -min(to_face, to_opening);
 }
 
-float smooth_subtract(float a, float b, float radius) {
-    return smooth_intersect(a, -b, radius);
+// The part of a torus within half the angle on either side of the x axis, with round ends.
+float capped_torus(vec3 p, float major_radius, float minor_radius, float angle) {
+    vec2 q = vec2(p.x, abs(p.z));
+    vec2 end = vec2(cos(0.5f * angle), max(sin(0.5f * angle), 0.0f));
+    bool beside = end.y * q.x >= end.x * q.y;  // the nearest point of the circle belongs to the arc
+    vec2 to_end = q - major_radius * end;
+    return length(vec2(beside ? length(q) - major_radius : length(to_end), p.y)) - minor_radius;
 }
 
-// The fraction of b's material, from 0 to 1 across the blend.
-float union_weight(float a, float b, float radius) {
-    return clamp(0.5f + 0.5f * (a - b) / max(radius, 1e-9f), 0.0f, 1.0f);
+// A link of a chain: a torus around the z axis whose halves stand half_height above and below the middle.
+float link(vec3 p, float major_radius, float minor_radius, float half_height) {
+    float ring = length(vec2(p.x, max(abs(p.y) - half_height, 0.0f))) - major_radius;
+    return length(vec2(ring, p.z)) - minor_radius;
 }
 
-float intersect_weight(float a, float b, float radius) {
-    return union_weight(b, a, radius);
+// A cylinder whose rims are rounded within its size.
+float rounded_cylinder(vec3 p, float radius, float half_height, float edge_radius) {
+    float r = min(edge_radius, min(radius, half_height));
+    return capped_cylinder(p, radius - r, half_height - r) - r;
 }
 
-float subtract_weight(float a, float b, float radius) {
-    return union_weight(-b, a, radius);
+// A cone without its tip. The distance is the lesser one to the nearer disc and to the slanted side.
+float capped_cone(vec3 p, float lower_radius, float upper_radius, float half_height) {
+    vec2 q = vec2(length(vec2(p.x, p.z)), p.y);
+    vec2 to_disc = vec2(max(q.x - (q.y < 0.0f ? lower_radius : upper_radius), 0.0f), abs(q.y) - half_height);
+    vec2 side = vec2(upper_radius - lower_radius, 2.0f * half_height);
+    vec2 from_rim = q - vec2(lower_radius, -half_height);
+    float along = clamp(dot(from_rim, side) / max(dot(side, side), 1e-12f), 0.0f, 1.0f);
+    vec2 to_side = from_rim - along * side;
+    bool inside = from_rim.x * side.y < from_rim.y * side.x && to_disc.y < 0.0f;
+    float d = sqrt(min(dot(to_disc, to_disc), dot(to_side, to_side)));
+    return inside ? -d : d;
 }
 
-// ---- domain ----------------------------------------------------------------------------------------------------------
-
-// Each axis whose flag is 1 shows the positive side's content on both sides.
-vec3 mirror(vec3 p, vec3 axes) {
-    return mix(p, abs(p), axes);
+// The convex hull of two balls at y = -half_height and y = half_height: a ball whose centre moves up the axis while its
+// radius shrinks by `taper` for each metre. The nearest such ball is found in closed form; where one end holds the other,
+// taper is 1 and only the larger ball is left.
+float round_cone(vec3 p, float lower_radius, float upper_radius, float half_height) {
+    float larger = max(lower_radius, upper_radius);
+    float taper = min(abs(lower_radius - upper_radius) / max(2.0f * half_height, 1e-9f), 1.0f);
+    vec2 q = vec2(length(vec2(p.x, p.z)), (lower_radius >= upper_radius ? p.y : -p.y) + half_height);
+    float s = clamp(q.y - q.x * taper / sqrt(max(1.0f - taper * taper, 1e-12f)), 0.0f, 2.0f * half_height);
+    return length(vec2(q.x, q.y - s)) - (larger - taper * s);
 }
 
-// One axis of repeat: the coordinate in the frame of the nearest copy, or of the next one on p's side when next is 1.
-// Copies stand at multiples of spacing; a positive count limits them and centres the row. No spacing or one copy: as is.
-float repeat_axis(float p, float spacing, float count, float next) {
-    if (spacing <= 0.0f || count == 1.0f) return p;
-    float last = 0.5f * (count - 1.0f);
-    float offset = count > 0.0f ? last - floor(last) : 0.0f;
-    float cell = floor(p / spacing - offset + 0.5f) + offset;
-    cell += next * (p >= cell * spacing ? 1.0f : -1.0f);
-    if (count > 0.0f) cell = clamp(cell, -last, last);
-    return p - cell * spacing;
+// From the distance in the plane and the distance along the normal, |along| - half_height, to that of the prism.
+float prism(float d, float along, float half_height) {
+    vec2 q = vec2(d, abs(along) - half_height);
+    return length(max(q, vec2(0.0f))) + min(max(q.x, q.y), 0.0f);
 }
 
-// How many copies can hold the nearest point: two along each repeated axis, when the content stays in its cell.
-int repeat_cells(vec3 spacing, vec3 count) {
-    return (spacing.x > 0.0f && count.x != 1.0f ? 2 : 1) * (spacing.y > 0.0f && count.y != 1.0f ? 2 : 1) *
-           (spacing.z > 0.0f && count.z != 1.0f ? 2 : 1);
+// Signed distance in the plane to a side that lies at q.y = 0 between q.x = -half_width and half_width.
+float polygon_side(vec2 q, float half_width) {
+    float d = length(vec2(max(abs(q.x) - half_width, 0.0f), q.y));
+    return q.y < 0.0f ? -d : d;
 }
 
-// p in the frame of one of those copies, cell < repeat_cells(spacing, count).
-vec3 repeat(vec3 p, vec3 spacing, vec3 count, int cell) {
-    int x = spacing.x > 0.0f && count.x != 1.0f ? 2 : 1;
-    int y = spacing.y > 0.0f && count.y != 1.0f ? 2 : 1;
-    return vec3(repeat_axis(p.x, spacing.x, count.x, float(cell % x)),
-                repeat_axis(p.y, spacing.y, count.y, float((cell / x) % y)),
-                repeat_axis(p.z, spacing.z, count.z, float(cell / (x * y))));
+// A regular hexagon in the xz plane, two sides across z, along y. The mirror brings q to the side across z.
+float hexagonal_prism(vec3 p, float inradius, float half_height) {
+    vec2 q = vec2(abs(p.x), abs(p.z));
+    q -= 2.0f * max(0.8660254f * q.x - 0.5f * q.y, 0.0f) * vec2(0.8660254f, -0.5f);
+    return prism(polygon_side(vec2(q.x, q.y - inradius), 0.57735027f * inradius), p.y, half_height);
 }
 
-// Turns the content about the y axis, rate radians for each metre of height.
-vec3 twist(vec3 p, float rate) {
-    float c = cos(rate * p.y);
-    float s = sin(rate * p.y);
-    return vec3(c * p.x + s * p.z, p.y, c * p.z - s * p.x);
+// An equilateral triangle in the xz plane, one corner towards -z, along y. Exact, unlike the usual bound.
+float triangular_prism(vec3 p, float inradius, float half_height) {
+    vec2 q = vec2(abs(p.x), p.z);
+    q -= 2.0f * max(0.5f * q.x - 0.8660254f * q.y, 0.0f) * vec2(0.5f, -0.8660254f);
+    return prism(polygon_side(vec2(q.x, q.y - inradius), 1.7320508f * inradius), p.y, half_height);
 }
 
-// A bound of the distance to twisted content. Within radius s of the axis the twist stretches by at most
-// (k s + sqrt(k² s² + 4)) / 2 <= 1 + k s with k = |rate|. A path of length r from p stays within radius s + r; so r is safe
-// where (1 + k (s + r)) r <= |d|, and this is the largest such r.
-float twist_distance(float d, vec3 p, float rate) {
-    float k = abs(rate);
-    float b = 1.0f + k * length(vec2(p.x, p.z));
-    return 2.0f * d / (b + sqrt(b * b + 4.0f * k * abs(d)));
+// The part of a ball within half the angle of the +y axis.
+float solid_angle(vec3 p, float radius, float angle) {
+    vec2 q = vec2(length(vec2(p.x, p.z)), p.y);
+    vec2 side = vec2(max(sin(0.5f * angle), 0.0f), cos(0.5f * angle));
+    float to_ball = length(q) - radius;
+    float to_side = length(q - side * clamp(dot(q, side), 0.0f, radius));
+    return max(to_ball, side.y * q.x < side.x * q.y ? -to_side : to_side);
 }
 
-// ---- distance --------------------------------------------------------------------------------------------------------
-
-// A skin of this thickness, half of it on either side of the surface.
-float shell(float d, float thickness) {
-    return abs(d) - 0.5f * thickness;
+// A ball without what lies below cut_height. Beyond the rim only the rim counts; elsewhere ball or plane do.
+float cut_sphere(vec3 p, float radius, float cut_height) {
+    float h = clamp(cut_height, -radius, radius);
+    float w = sqrt(max(radius * radius - h * h, 0.0f));
+    vec2 q = vec2(length(vec2(p.x, p.z)), p.y);
+    float l = length(q);
+    bool beyond_rim = q.y * radius < h * l && q.x > w;
+    return beyond_rim ? length(q - vec2(w, h)) : max(l - radius, h - q.y);
 }
 
-// Everything within radius of the content: grows it and rounds its convex edges.
-float inflate(float d, float radius) {
-    return d - radius;
+// A hollow ball, half the thickness on either side of the radius, without what lies above cut_height; the rim is round.
+float cut_hollow_sphere(vec3 p, float radius, float cut_height, float thickness) {
+    float h = clamp(cut_height, -radius, radius);
+    float w = sqrt(max(radius * radius - h * h, 0.0f));
+    vec2 q = vec2(length(vec2(p.x, p.z)), p.y);
+    float l = length(q);
+    return (q.y * radius > h * l ? length(q - vec2(w, h)) : abs(l - radius)) - 0.5f * thickness;
 }
 
-// ---- material --------------------------------------------------------------------------------------------------------
+// A ball from which another one, its centre at y = offset, is carved. Their surfaces meet in a rim (w, h); it is nearest
+// where neither the ball's surface nor the hollow's holds the point radially nearest to p.
+float death_star(vec3 p, float radius, float carving_radius, float offset) {
+    float h = (radius * radius - carving_radius * carving_radius + offset * offset) / max(2.0f * offset, 1e-9f);
+    h = clamp(h, -radius, radius);
+    float w = sqrt(max(radius * radius - h * h, 0.0f));
+    vec2 q = vec2(length(vec2(p.x, p.z)), p.y);
+    vec2 c = vec2(q.x, q.y - offset);
+    float d = max(length(q) - radius, carving_radius - length(c));
+    bool on_ball = q.y * radius <= h * length(q);
+    bool in_hollow = c.y * carving_radius <= (h - offset) * length(c);
+    return d > 0.0f && !on_ball && !in_hollow ? length(q - vec2(w, h)) : d;
+}
 
-// A material code holds two material indices of 12 bits and, in the upper 8 bits, the second one's share in 1/255.
-// Blends code b into a with the given share of b; where a or b is a blend itself its larger part stands for it.
-uint blend_materials(uint a, uint b, float share_of_b) {
-    uint share = uint(share_of_b * 255.0f + 0.5f);
-    uint first = (a >> 24u) < 128u ? a & 0xfffu : (a >> 12u) & 0xfffu;
-    uint second = (b >> 24u) < 128u ? b & 0xfffu : (b >> 12u) & 0xfffu;
-    return share == 0u ? a : share == 255u ? b : first | (second << 12u) | (share << 24u);
+// The circular arc from tip to tip through (radius, 0), turned about the y axis; the radius is limited to half_height, where
+// it is a ball. The arc's centre is (-c, 0); the quotient avoids subtracting two large radii when it is flat.
+float vesica(vec3 p, float radius, float half_height) {
+    float r = max(min(radius, half_height), 1e-6f * half_height + 1e-9f);
+    float c = max((half_height * half_height - r * r) / (2.0f * r), 0.0f);
+    vec2 q = vec2(length(vec2(p.x, p.z)), abs(p.y));
+    vec2 from_centre = vec2(q.x + c, q.y);
+    float to_arc = (dot(q, q) + 2.0f * c * q.x - r * (2.0f * c + r)) / (length(from_centre) + c + r);
+    return q.y * c > half_height * from_centre.x ? length(vec2(q.x, q.y - half_height)) : to_arc;
+}
+
+// A rhombus in the xz plane with these half diagonals, along y.
+float rhombus(vec3 p, float half_length, float half_width, float half_height) {
+    vec2 q = vec2(abs(p.x) - half_length, abs(p.z));  // from the corner on the x axis
+    vec2 side = vec2(-half_length, half_width);
+    float along = clamp(dot(q, side) / max(dot(side, side), 1e-12f), 0.0f, 1.0f);
+    float d = length(q - along * side);
+    return prism(q.x * half_width + q.y * half_length < 0.0f ? -d : d, p.y, half_height);
+}
+
+// All points with |x| + |y| + |z| <= radius. Nearest to p is a face or, where p's least coordinate leaves the face, the
+// edge on which that coordinate is 0.
+float octahedron(vec3 p, float radius) {
+    vec3 q = abs(p);
+    float largest = max(q.x, max(q.y, q.z));
+    float middle = max(min(q.x, q.y), min(max(q.x, q.y), q.z));
+    float least = min(q.x, min(q.y, q.z));
+    float to_face = (largest + middle + least - radius) / 3.0f;
+    float t = clamp(0.5f * (largest - middle + radius), 0.0f, radius);
+    return least >= to_face ? 1.7320508f * to_face : length(vec3(largest - t, middle - (radius - t), least));
+}
+
+// Square base at y = -half_height, apex at y = half_height. By symmetry one side counts, seen from the middle of its base
+// edge: q.x outwards, q.y up, q.z along the edge; in the side's plane, q.z and `along`, it is a triangle.
+float pyramid(vec3 p, float half_width, float half_height) {
+    vec3 q = vec3(max(abs(p.x), abs(p.z)) - half_width, p.y + half_height, min(abs(p.x), abs(p.z)));
+    float slant = max(length(vec2(half_width, 2.0f * half_height)), 1e-9f);
+    vec2 up = vec2(-half_width, 2.0f * half_height) / slant;
+    float off = q.x * up.y - q.y * up.x;
+    float along = q.x * up.x + q.y * up.y;
+    vec3 to_base = vec3(max(q.x, 0.0f), q.y, max(q.z - half_width, 0.0f));
+    vec2 edge = vec2(-half_width, slant);
+    vec2 from_corner = vec2(q.z - half_width, along);
+    vec2 to_edge = from_corner - edge * clamp(dot(from_corner, edge) / dot(edge, edge), 0.0f, 1.0f);
+    bool beyond_edge = from_corner.x * edge.y > from_corner.y * edge.x;
+    vec2 in_side = beyond_edge ? to_edge : vec2(max(q.z - half_width, 0.0f), min(along, 0.0f));
+    float d = sqrt(min(dot(to_base, to_base), off * off + dot(in_side, in_side)));
+    return off < 0.0f && q.y > 0.0f ? max(off, -q.y) : d;
 }

@@ -2,6 +2,7 @@
 #include "renderer/context.h"
 #include "renderer/gl.h"
 #include "sdf/codegen.h"
+#include "sdf/edit.h"
 #include "sdf/evaluate.h"
 #include "sdf/scene_file.h"
 #include "tests/test_support.h"
@@ -74,6 +75,20 @@ protected:
 
 TEST_F(FieldOnGpu, AgreesWithTheCpuOnBundledScenes) {
     for (const auto& file : bundled_scenes()) expect_agreement(load_scene(file), 1, file.filename().string());
+}
+
+TEST_F(FieldOnGpu, AgreesWithTheCpuOnEveryKind) {
+    for (const KindInfo& kind : node_kinds()) {
+        Scene scene;
+        const Id id = apply(scene, InsertNode{scene.root.id, -1, make_node(kind.kind)});
+        if (kind.takes_children()) {
+            Node ball = make_node(NodeKind::sphere);
+            ball.transform.translate = {0.4f, 0.3f, 0.1f};
+            apply(scene, InsertNode{id, -1, make_node(NodeKind::box)});
+            apply(scene, InsertNode{id, -1, ball});
+        }
+        expect_agreement(scene, 1, kind.key);
+    }
 }
 
 TEST_F(FieldOnGpu, AgreesWithTheCpuOnRandomScenes) {

@@ -1,10 +1,11 @@
-// Properties of the field, over every kind of the table.
+// Properties of the field beyond those of every kind, which kinds_test tests.
 #include "sdf/evaluate.h"
 
 #include "sdf/edit.h"
 #include "tests/test_support.h"
 
 #include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -16,70 +17,6 @@ glm::vec3 random_point(std::mt19937& random, float extent) {
     std::uniform_real_distribution<float> uniform(-extent, extent);
     const float x = uniform(random), y = uniform(random), z = uniform(random);
     return {x, y, z};
-}
-
-/// A scene of one node of `kind`; an operation gets two primitives to work on.
-Scene scene_of(NodeKind kind) {
-    Scene scene;
-    const Id id = apply(scene, InsertNode{scene.root.id, -1, make_node(kind)});
-    if (!info(kind).takes_children()) return scene;
-    Node box = make_node(NodeKind::box);
-    box.values[0] = {0.3f, 0.2f, 0.25f};
-    Node ball = make_node(NodeKind::sphere);
-    ball.values[0].x = 0.3f;
-    ball.transform.translate = {0.2f, 0.1f, 0.0f};
-    apply(scene, InsertNode{id, -1, box});
-    apply(scene, InsertNode{id, -1, ball});
-    return scene;
-}
-
-class EveryKind : public testing::TestWithParam<NodeKind> {};
-INSTANTIATE_TEST_SUITE_P(Table, EveryKind, testing::ValuesIn([] {
-                             std::vector<NodeKind> kinds;
-                             for (const KindInfo& kind : node_kinds()) kinds.push_back(kind.kind);
-                             return kinds;
-                         }()),
-                         [](const auto& test) { return std::string(farfield::info(test.param).key); });
-
-TEST_P(EveryKind, NeverClaimsMoreThanTheDistanceToAnotherSide) {
-    // Where two points lie on different sides of the surface, the surface is between them: neither distance may exceed theirs.
-    std::mt19937 random(7);
-    const Scene scene = scene_of(GetParam());
-    const FieldEvaluator field(scene);
-    int pairs = 0;
-    for (int i = 0; i < 200'000; ++i) {
-        const glm::vec3 a = random_point(random, 1.5f);
-        const glm::vec3 b = a + random_point(random, 0.3f);
-        const float da = field.distance(a), db = field.distance(b);
-        if ((da > 0.0f) == (db > 0.0f)) continue;
-        ++pairs;
-        ASSERT_LE(std::max(std::abs(da), std::abs(db)), glm::length(a - b) + 1e-5f)
-            << "at " << a.x << " " << a.y << " " << a.z << " and " << b.x << " " << b.y << " " << b.z;
-    }
-    EXPECT_GT(pairs, 100);
-}
-
-TEST_P(EveryKind, AnswersFiniteNumbersAtTheLimitsOfItsParameters) {
-    std::mt19937 random(11);
-    const KindInfo& kind = info(GetParam());
-    for (int round = 0; round < 200; ++round) {
-        Scene scene = scene_of(GetParam());
-        const ObjectRef node{ObjectType::node, scene.root.children[0].id};
-        for (const Parameter& parameter : kind.parameters) {
-            glm::vec3 v{0.0f};
-            for (int i = 0; i < parameter.components(); ++i) {
-                const float choices[] = {parameter.minimum, parameter.maximum, 0.0f, parameter.initial[i]};
-                v[i] = choices[random() % 4];
-            }
-            v = clamped(parameter, v);
-            set_value(scene, node, parameter.key, v);
-        }
-        const FieldEvaluator field(scene);
-        for (int i = 0; i < 20; ++i) {
-            const glm::vec3 p = i == 0 ? glm::vec3(0.0f) : random_point(random, i < 10 ? 2.0f : 1e4f);
-            ASSERT_TRUE(std::isfinite(field.distance(p))) << kind.key << " at " << p.x << " " << p.y << " " << p.z;
-        }
-    }
 }
 
 TEST(Field, ScaleRescalesTheDistance) {
@@ -111,6 +48,54 @@ TEST(Field, SmoothUnionIsOneLipschitzAndNoGreaterThanItsParts) {
         ASSERT_GE(f, std::min(a, b) - 0.25f * v[0].x - 1e-6f);
         ASSERT_LE(std::abs(kind.combine(a + da, b + db, v) - f), std::max(std::abs(da), std::abs(db)) + 1e-5f);
     }
+}
+
+TEST(Field, EdgeProfilesHaveTheTightestSafeDistance) {
+    // Where both surfaces run side by side, a = y and b = y - offset, the distance is known: the height above the point at
+    // which the profile's curve is met, and no factor less than 1 takes anything off it. kinds_test shows that they are safe.
+    constexpr float radius = 0.4f, steps = 3.0f;
+    const std::vector<glm::vec3> v{{radius, 0.0f, 0.0f}, {steps, 0.0f, 0.0f}};
+    for (const NodeKind kind : {NodeKind::chamfer_union, NodeKind::round_union, NodeKind::stairs_union}) {
+        const auto combine = info(kind).combine;
+        for (int i = -20; i <= 20; ++i) {
+            const float offset = 0.019f * static_cast<float>(i);
+            const float d = combine(0.0f, -offset, v);
+            for (const float y : {-1.0f, 0.3f, 2.0f}) EXPECT_NEAR(combine(y, y - offset, v), y + d, 1e-6f) << i;
+            EXPECT_NEAR(combine(-d, -d - offset, v), 0.0f, 1e-6f);
+            const float a = -d, b = -d - offset;  // on the curve: hg_sdf's
+            if (kind == NodeKind::chamfer_union) {
+                EXPECT_NEAR(a + b, radius, 1e-6f);
+            }
+            if (kind == NodeKind::round_union) {
+                EXPECT_NEAR(glm::length(glm::vec2(a - radius, b - radius)), radius, 1e-6f);
+                EXPECT_LT(std::max(a, b), radius + 1e-6f);
+            }
+            if (kind == NodeKind::stairs_union) {  // on a tread or a riser: one of them is a multiple of a step
+                constexpr float step = radius / (steps + 1.0f);
+                EXPECT_TRUE(std::abs(std::remainder(a, step)) < 1e-6f || std::abs(std::remainder(b, step)) < 1e-6f) << a;
+            }
+        }
+    }
+}
+
+TEST(Field, ProfiledIntersectionsAndSubtractionsMirrorTheUnions) {
+    using K = NodeKind;
+    std::mt19937 random(9);
+    std::uniform_real_distribution<float> uniform(-1.0f, 1.0f);
+    const std::vector<glm::vec3> v{{0.4f, 0.0f, 0.0f}, {3.0f, 0.0f, 0.0f}};
+    const K kinds[][3] = {{K::union_, K::intersect, K::subtract},
+                          {K::chamfer_union, K::chamfer_intersect, K::chamfer_subtract},
+                          {K::round_union, K::round_intersect, K::round_subtract},
+                          {K::stairs_union, K::stairs_intersect, K::stairs_subtract},
+                          {K::columns_union, K::columns_intersect, K::columns_subtract}};
+    for (const auto& [unite, intersect, subtract] : kinds)
+        for (int i = 0; i < 1000; ++i) {
+            const float a = uniform(random), b = uniform(random);
+            EXPECT_NEAR(info(intersect).combine(a, b, v), -info(unite).combine(-a, -b, v), 1e-6f);
+            EXPECT_NEAR(info(subtract).combine(a, b, v), -info(unite).combine(-a, b, v), 1e-6f);
+            EXPECT_NEAR(info(unite).combine(a, b, v), info(unite).combine(b, a, v), 1e-6f);
+            EXPECT_NEAR(info(unite).weight(a, b, v), 1.0f - info(unite).weight(b, a, v), 1e-6f);
+        }
 }
 
 TEST(Field, AsymmetricContentRepeatsWithoutOvershoot) {

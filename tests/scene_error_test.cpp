@@ -166,7 +166,7 @@ TEST(SceneFileError, WrongType) {
     expect_error(
         "\"union\"", "{}", 13, "root/kind",
         "found an object, expected one of sphere, box, rounded_box, torus, capsule, capped_cylinder, cone, plane, "
-        "ellipsoid, union, intersect, subtract, mirror, repeat, twist, shell, round");
+        "...");
     expect_error("\"name\": \"ball\"", "\"name\": 1", 17, "root/children[0]/name", "found 1, expected a text");
     expect_error("\"red\",\n", "3,\n", 18, "root/children[0] \"ball\"/material",
                  "found 3, expected the name of a material");
@@ -205,7 +205,7 @@ TEST(SceneFileError, MissingFields) {
     expect_error(
         "\"kind\": \"sphere\",", "", 15, "root/children[0] \"ball\"",
         "has no \"kind\", expected one of sphere, box, rounded_box, torus, capsule, capped_cylinder, cone, plane, "
-        "ellipsoid, union, intersect, subtract, mirror, repeat, twist, shell, round");
+        "...");
     expect_error("\"camera\"", "\"lights\": {\"lamp\": {}},\n\"camera\"", 3, "lights/lamp",
                  "has no \"kind\", expected one of point, directional");
     expect_error("{\"farfield\": 1}", 1, "", "has no \"root\", expected the union that holds the scene's nodes");
@@ -217,7 +217,7 @@ TEST(SceneFileError, UnknownKind) {
     expect_error(
         "\"sphere\"", "\"shpere\"", 16, "root/children[0] \"ball\"/kind",
         "found \"shpere\", expected one of sphere, box, rounded_box, torus, capsule, capped_cylinder, cone, plane, "
-        "ellipsoid, union, intersect, subtract, mirror, repeat, twist, shell, round (perhaps sphere)");
+        "... (perhaps sphere)");
 }
 
 TEST(SceneFileError, Children) {
