@@ -33,7 +33,8 @@ void write_outputs(Renderer& renderer, const std::vector<std::filesystem::path>&
 
 /// A scene with the settings of the command line, and a renderer in a context of its own.
 struct Headless {
-    Headless(const std::filesystem::path& file, const Overrides& overrides, ContextKind kind) : scene(load_scene(file)) {
+    Headless(const std::filesystem::path& file, const Overrides& overrides, ContextKind kind)
+        : scene(load_scene(file)) {
         overrides.apply(scene.settings);
         context = make_headless_context(kind);
         context->make_current();
@@ -69,7 +70,8 @@ void Overrides::apply(Settings& settings) const {
                        why_refused(field.parameter, value).empty();
             }
             if (!read)
-                throw std::invalid_argument(fmt::format("{}: \"{}\" given, expected {}", key, text, expectation(field.parameter)));
+                throw std::invalid_argument(
+                    fmt::format("{}: \"{}\" given, expected {}", key, text, expectation(field.parameter)));
             field.set(settings, value);
         }
     }
@@ -104,8 +106,8 @@ int run_glsl(const GlslOptions& options) {
 
 int run_check(const std::filesystem::path& file) {
     const Scene scene = load_scene(file);
-    fmt::print("{}: {} nodes, {} materials, {} lights\n", file.string(), count_nodes(scene.root), scene.materials.size(),
-               scene.lights.size());
+    fmt::print("{}: {} nodes, {} materials, {} lights\n", file.string(), count_nodes(scene.root),
+               scene.materials.size(), scene.lights.size());
     return 0;
 }
 

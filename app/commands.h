@@ -1,4 +1,5 @@
-// The offline commands of the command line; each returns the exit status: 0 done, 1 failed while running, 2 wrong input.
+// The offline commands of the command line; each returns the exit status: 0 done, 1 failed while running, 2 wrong
+// input.
 #pragma once
 
 #include "renderer/context.h"
@@ -44,7 +45,7 @@ struct BenchOptions {
     std::filesystem::path scene;
     glm::ivec2 size{512, 512};
     bool live = false;  ///< the live tier too
-    int frames = 5;  ///< measured, after one that is not
+    int frames = 5;     ///< measured, after one that is not
     ContextKind context = ContextKind::automatic;
     Overrides overrides;
 };

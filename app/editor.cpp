@@ -147,7 +147,9 @@ private:
                 if (std::holds_alternative<AddMaterial>(edit)) ui_.selection = {ObjectType::material, id};
                 if (std::holds_alternative<AddLight>(edit)) ui_.selection = {ObjectType::light, id};
                 if (const auto* moved = std::get_if<MoveNode>(&edit)) ui_.reveal = moved->node;
-            } catch (const EditError& error) { files_.show_error(error.what()); }
+            } catch (const EditError& error) {
+                files_.show_error(error.what());
+            }
         }
     }
 
@@ -174,35 +176,73 @@ private:
     bool enabled(CommandId id) const {
         const Scene& scene = document_.scene();
         switch (id) {
-            case CommandId::undo: return document_.history().can_undo();
-            case CommandId::redo: return document_.history().can_redo();
-            case CommandId::duplicate: return !duplicate_selection(ui_, scene).empty();
-            case CommandId::remove: return !delete_selection(ui_, scene).empty();
-            case CommandId::move_up: return !shift_selection(ui_, scene, -1).empty();
-            case CommandId::move_down: return !shift_selection(ui_, scene, 1).empty();
-            case CommandId::rename: return ui_.selection.id != 0 && exists(scene, ui_.selection);
-            default: return true;
+            case CommandId::undo:
+                return document_.history().can_undo();
+            case CommandId::redo:
+                return document_.history().can_redo();
+            case CommandId::duplicate:
+                return !duplicate_selection(ui_, scene).empty();
+            case CommandId::remove:
+                return !delete_selection(ui_, scene).empty();
+            case CommandId::move_up:
+                return !shift_selection(ui_, scene, -1).empty();
+            case CommandId::move_down:
+                return !shift_selection(ui_, scene, 1).empty();
+            case CommandId::rename:
+                return ui_.selection.id != 0 && exists(scene, ui_.selection);
+            default:
+                return true;
         }
     }
 
     void perform(CommandId id) {
         const Scene& scene = document_.scene();
         switch (id) {
-            case CommandId::create: files_.create(); break;
-            case CommandId::open: files_.open(); break;
-            case CommandId::save: files_.save(); break;
-            case CommandId::save_as: files_.save_as(); break;
-            case CommandId::quit: files_.quit(); break;
-            case CommandId::undo: document_.undo(); break;
-            case CommandId::redo: document_.redo(); break;
-            case CommandId::add: ui_.open_add = true; break;
-            case CommandId::duplicate: carry_out(duplicate_selection(ui_, scene), 0); break;
-            case CommandId::rename: ui_.focus_name = true; break;
-            case CommandId::remove: carry_out(delete_selection(ui_, scene), 0); break;
-            case CommandId::move_up: carry_out(shift_selection(ui_, scene, -1), 0); break;
-            case CommandId::move_down: carry_out(shift_selection(ui_, scene, 1), 0); break;
-            case CommandId::statistics: ui_.show_statistics = !ui_.show_statistics; break;
-            case CommandId::shortcuts: ui_.show_shortcuts = !ui_.show_shortcuts; break;
+            case CommandId::create:
+                files_.create();
+                break;
+            case CommandId::open:
+                files_.open();
+                break;
+            case CommandId::save:
+                files_.save();
+                break;
+            case CommandId::save_as:
+                files_.save_as();
+                break;
+            case CommandId::quit:
+                files_.quit();
+                break;
+            case CommandId::undo:
+                document_.undo();
+                break;
+            case CommandId::redo:
+                document_.redo();
+                break;
+            case CommandId::add:
+                ui_.open_add = true;
+                break;
+            case CommandId::duplicate:
+                carry_out(duplicate_selection(ui_, scene), 0);
+                break;
+            case CommandId::rename:
+                ui_.focus_name = true;
+                break;
+            case CommandId::remove:
+                carry_out(delete_selection(ui_, scene), 0);
+                break;
+            case CommandId::move_up:
+                carry_out(shift_selection(ui_, scene, -1), 0);
+                break;
+            case CommandId::move_down:
+                carry_out(shift_selection(ui_, scene, 1), 0);
+                break;
+            case CommandId::statistics:
+                ui_.show_statistics = !ui_.show_statistics;
+                break;
+            case CommandId::shortcuts:
+                ui_.show_shortcuts = !ui_.show_shortcuts;
+                break;
         }
     }
 
@@ -233,9 +273,12 @@ private:
             case ObjectType::light:
                 if (const Light* light = find_light(scene, ui_.selection.id)) return light->name;
                 return "";
-            case ObjectType::sky: return "Sky";
-            case ObjectType::camera: return "Camera";
-            case ObjectType::settings: return "Settings";
+            case ObjectType::sky:
+                return "Sky";
+            case ObjectType::camera:
+                return "Camera";
+            case ObjectType::settings:
+                return "Settings";
         }
         return "";
     }

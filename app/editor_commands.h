@@ -10,9 +10,21 @@
 namespace farfield {
 
 enum class CommandId {
-    create, open, save, save_as, quit,
-    undo, redo, add, duplicate, rename, remove, move_up, move_down,
-    statistics, shortcuts,
+    create,
+    open,
+    save,
+    save_as,
+    quit,
+    undo,
+    redo,
+    add,
+    duplicate,
+    rename,
+    remove,
+    move_up,
+    move_down,
+    statistics,
+    shortcuts,
 };
 
 /// The command on a key, if any.

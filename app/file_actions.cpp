@@ -52,7 +52,9 @@ void FileActions::load(const std::filesystem::path& file) {
     try {
         document_.open(file);
         error_.clear();
-    } catch (const SceneFileError& error) { error_ = error.what(); }
+    } catch (const SceneFileError& error) {
+        error_ = error.what();
+    }
 }
 
 bool FileActions::write(const std::filesystem::path& file) {

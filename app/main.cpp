@@ -18,20 +18,23 @@ namespace {
 glm::ivec2 parse_size(const std::string& text) {
     glm::ivec2 size{0};
     char rest = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%c", &size.x, &size.y, &rest) != 2 || size.x < 1 || size.y < 1 || size.x > 16384 ||
-        size.y > 16384)
-        throw CLI::ValidationError("--size", fmt::format("\"{}\" given, expected WIDTHxHEIGHT, each between 1 and 16384", text));
+    if (std::sscanf(text.c_str(), "%dx%d%c", &size.x, &size.y, &rest) != 2 || size.x < 1 || size.y < 1 ||
+        size.x > 16384 || size.y > 16384)
+        throw CLI::ValidationError("--size",
+                                   fmt::format("\"{}\" given, expected WIDTHxHEIGHT, each between 1 and 16384", text));
     return size;
 }
 
 /// Options shared by commands that render. One option for each setting comes from the settings table.
 void add_common(CLI::App& command, glm::ivec2& size, ContextKind& context, Overrides& overrides) {
-    command.add_option_function<std::string>("--size", [&](const std::string& text) { size = parse_size(text); },
-                                             fmt::format("Pixels, default {}x{}", size.x, size.y))
+    command
+        .add_option_function<std::string>(
+            "--size", [&](const std::string& text) { size = parse_size(text); },
+            fmt::format("Pixels, default {}x{}", size.x, size.y))
         ->type_name("WxH");
     command.add_option("--context", context, "Where OpenGL comes from")
-        ->transform(CLI::CheckedTransformer(
-            std::map<std::string, ContextKind>{{"auto", ContextKind::automatic}, {"egl", ContextKind::egl}, {"osmesa", ContextKind::osmesa}}))
+        ->transform(CLI::CheckedTransformer(std::map<std::string, ContextKind>{
+            {"auto", ContextKind::automatic}, {"egl", ContextKind::egl}, {"osmesa", ContextKind::osmesa}}))
         ->type_name("auto|egl|osmesa");
     for (const Field<Settings>& field : fields<Settings>()) {
         const Parameter& p = field.parameter;
@@ -39,7 +42,8 @@ void add_common(CLI::App& command, glm::ivec2& size, ContextKind& context, Overr
         std::replace(option.begin(), option.end(), '_', '-');
         command
             .add_option_function<std::string>(
-                option, [&overrides, key = p.key](const std::string& text) { overrides.values.emplace_back(key, text); },
+                option,
+                [&overrides, key = p.key](const std::string& text) { overrides.values.emplace_back(key, text); },
                 fmt::format("{} (default: the scene's)", p.tip))
             ->type_name(p.choices.empty() ? "NUMBER" : fmt::format("{}", fmt::join(p.choices, "|")));
     }
@@ -47,21 +51,26 @@ void add_common(CLI::App& command, glm::ivec2& size, ContextKind& context, Overr
 
 int run(int argc, char** argv) {
     CLI::App app{"Farfield: an editor for signed-distance-field scenes with indirect light"};
-    app.footer("Without a command the editor opens, on SCENE if given. Scene files are described in scenes/README.md.\n"
-               "Exit status: 0 done, 1 failed while running, 2 wrong use or wrong input.");
+    app.footer(
+        "Without a command the editor opens, on SCENE if given. Scene files are described in scenes/README.md.\n"
+        "Exit status: 0 done, 1 failed while running, 2 wrong use or wrong input.");
     app.require_subcommand(0, 1);
     EditorOptions editor;
     app.add_option("scene", editor.scene, "Scene file to open")->type_name("SCENE");
-    app.add_option("--report", editor.report, "Write names, places and state of the editor's controls to this file (for scripted tests)")
+    app.add_option("--report", editor.report,
+                   "Write names, places and state of the editor's controls to this file (for scripted tests)")
         ->type_name("FILE");
 
     RenderOptions render;
     CLI::App* render_command = app.add_subcommand("render", "Render a scene to images without a window");
     render_command->add_option("SCENE", render.scene, "Scene file")->required();
-    render_command->add_option("-o,--output", render.outputs, "EXR (linear, every view a layer) or PNG (as displayed); may be repeated")
+    render_command
+        ->add_option("-o,--output", render.outputs,
+                     "EXR (linear, every view a layer) or PNG (as displayed); may be repeated")
         ->required()
         ->type_name("IMAGE");
-    render_command->add_option("--frames", render.frames, "Frames to accumulate, default 16")->check(CLI::Range(1, 1'000'000));
+    render_command->add_option("--frames", render.frames, "Frames to accumulate, default 16")
+        ->check(CLI::Range(1, 1'000'000));
     render_command->add_option("--seed", render.seed, "Another seed gives another noise, default 0");
     std::string view_names;
     for (const ViewInfo& v : views()) view_names += (view_names.empty() ? "" : "|") + std::string(v.key);
@@ -70,7 +79,9 @@ int run(int argc, char** argv) {
             "--view",
             [&](const std::string& key) {
                 const auto found = find_view(key);
-                if (!found) throw CLI::ValidationError("--view", fmt::format("\"{}\" given, expected one of {}", key, view_names));
+                if (!found)
+                    throw CLI::ValidationError("--view",
+                                               fmt::format("\"{}\" given, expected one of {}", key, view_names));
                 render.view = *found;
             },
             "What the picture shows, default result")

@@ -15,7 +15,8 @@ void on_signal(int) { stop_wanted = 1; }
 
 }  // namespace
 
-Progress::Progress(std::string what, int total) : what_(std::move(what)), total_(total), terminal_(isatty(STDERR_FILENO) != 0) {
+Progress::Progress(std::string what, int total)
+    : what_(std::move(what)), total_(total), terminal_(isatty(STDERR_FILENO) != 0) {
     std::signal(SIGINT, on_signal);
     std::signal(SIGTERM, on_signal);
 }

@@ -1,4 +1,5 @@
-// Progress of long work on a terminal, and the wish to stop it (SIGINT, SIGTERM), so that no half-written file stays behind.
+// Progress of long work on a terminal, and the wish to stop it (SIGINT, SIGTERM), so that no half-written file stays
+// behind.
 #pragma once
 
 #include <chrono>

@@ -14,8 +14,8 @@ struct ContextError : std::runtime_error {
 class Context {
 public:
     virtual ~Context() = default;
-    virtual void make_current() = 0;  ///< on the calling thread; loads the OpenGL functions the first time
-    virtual void release() = 0;       ///< no context is current on the calling thread afterwards
+    virtual void make_current() = 0;       ///< on the calling thread; loads the OpenGL functions the first time
+    virtual void release() = 0;            ///< no context is current on the calling thread afterwards
     virtual std::string name() const = 0;  ///< as "EGL device", "EGL surfaceless", "OSMesa", "GLFW window"
 };
 

@@ -26,7 +26,8 @@ std::vector<Display> candidates() {
     const auto get_display =
         reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
     if (!get_display) return list;
-    if (has_extension(extensions, "EGL_EXT_platform_device") && has_extension(extensions, "EGL_EXT_device_enumeration")) {
+    if (has_extension(extensions, "EGL_EXT_platform_device") &&
+        has_extension(extensions, "EGL_EXT_device_enumeration")) {
         const auto query_devices = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(eglGetProcAddress("eglQueryDevicesEXT"));
         const auto query_string =
             reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(eglGetProcAddress("eglQueryDeviceStringEXT"));
@@ -84,8 +85,9 @@ std::unique_ptr<Context> make_egl_context() {
         EGLConfig config = nullptr;
         EGLint count = 0;
         if (!eglChooseConfig(candidate.display, wanted, &config, 1, &count) || count == 0) config = nullptr;
-        const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 3,
-                                     EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
+        const EGLint attributes[] = {
+            EGL_CONTEXT_MAJOR_VERSION,           4,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
+            EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
         const EGLContext context = eglCreateContext(candidate.display, config, EGL_NO_CONTEXT, attributes);
         if (context == EGL_NO_CONTEXT) {
             fail("has no OpenGL 4.3 core");

@@ -1,4 +1,5 @@
-// OpenGL objects as move-only values with debug labels. Made, used and destroyed with a context current; a failure throws.
+// OpenGL objects as move-only values with debug labels. Made, used and destroyed with a context current; a failure
+// throws.
 #pragma once
 
 #include <glad/gl.h>
@@ -62,8 +63,8 @@ struct QueryTraits {
 class Buffer {
 public:
     explicit Buffer(std::string label) : label_(std::move(label)) {}
-    void resize(std::size_t bytes);  ///< keeps nothing; does nothing when it has that size
-    void clear();                    ///< all bytes 0
+    void resize(std::size_t bytes);                    ///< keeps nothing; does nothing when it has that size
+    void clear();                                      ///< all bytes 0
     void upload(const void* data, std::size_t bytes);  ///< resizes
     template <class T>
     void upload(std::span<const T> items) {
@@ -100,7 +101,8 @@ private:
     int levels_ = 0;
 };
 
-/// A compute program. Uniforms are set by name; a name that the program does not use is an error in the pass that sets it.
+/// A compute program. Uniforms are set by name; a name that the program does not use is an error in the pass that sets
+/// it.
 class Program {
 public:
     Program() = default;
@@ -126,8 +128,8 @@ private:
 
 }  // namespace gl
 
-/// The text of renderer/shaders/NAME with the #version line and shaders/common.glsl in front and #line directives so that
-/// messages name the file.
+/// The text of renderer/shaders/NAME with the #version line and shaders/common.glsl in front and #line directives so
+/// that messages name the file.
 std::string shader_source(std::string_view name);
 /// shader_source compiled.
 gl::Program load_program(std::string_view name);

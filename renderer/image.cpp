@@ -81,7 +81,8 @@ Image read_image(const fs::path& file) {
 
 Difference compare(const Image& a, const Image& b) {
     if (a.size != b.size)
-        throw ImageError(fmt::format("images of {} x {} and {} x {} pixels cannot be compared", a.size.x, a.size.y, b.size.x, b.size.y));
+        throw ImageError(fmt::format("images of {} x {} and {} x {} pixels cannot be compared", a.size.x, a.size.y,
+                                     b.size.x, b.size.y));
     const OIIO::ImageBufAlgo::CompareResults results =
         OIIO::ImageBufAlgo::compare(as_buffer(a), as_buffer(b), 1e-3f, 1e-3f);
     return {results.rms_error, results.maxerror};

@@ -25,12 +25,12 @@ struct Layer {
     Image image;
 };
 
-/// Float EXR with a group of channels NAME.R, NAME.G, NAME.B for each layer. Written beside the target and renamed, so that an
-/// interrupted write leaves no broken file. Throws ImageError.
+/// Float EXR with a group of channels NAME.R, NAME.G, NAME.B for each layer. Written beside the target and renamed, so
+/// that an interrupted write leaves no broken file. Throws ImageError.
 void write_exr(const std::filesystem::path& file, const std::vector<Layer>& layers);
 
-/// Eight bits for each of three channels, display-ready, row 0 at the top. PNG, or whatever the extension says that OpenImageIO
-/// writes with eight bits. Atomic like write_exr; throws ImageError.
+/// Eight bits for each of three channels, display-ready, row 0 at the top. PNG, or whatever the extension says that
+/// OpenImageIO writes with eight bits. Atomic like write_exr; throws ImageError.
 void write_display(const std::filesystem::path& file, glm::ivec2 size, const std::vector<unsigned char>& rgb);
 
 /// Reads the first three channels as floats. Throws ImageError.

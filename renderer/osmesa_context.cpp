@@ -1,6 +1,6 @@
-// Headless OpenGL through OSMesa, Mesa's off-screen software renderer: the fallback where EGL is missing. Mesa 25.1 dropped
-// it, so the library is opened at run time and only its header is needed to build. Opened locally: its gl* symbols must not
-// shadow those of libGL.
+// Headless OpenGL through OSMesa, Mesa's off-screen software renderer: the fallback where EGL is missing. Mesa 25.1
+// dropped it, so the library is opened at run time and only its header is needed to build. Opened locally: its gl*
+// symbols must not shadow those of libGL.
 #include "renderer/context.h"
 
 #ifdef FARFIELD_OSMESA
@@ -42,8 +42,15 @@ struct Library {
 class OsMesaContext final : public Context {
 public:
     OsMesaContext() {
-        const int attributes[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_CORE_PROFILE,
-                                  OSMESA_CONTEXT_MAJOR_VERSION, 4, OSMESA_CONTEXT_MINOR_VERSION, 3, 0};
+        const int attributes[] = {OSMESA_FORMAT,
+                                  OSMESA_RGBA,
+                                  OSMESA_PROFILE,
+                                  OSMESA_CORE_PROFILE,
+                                  OSMESA_CONTEXT_MAJOR_VERSION,
+                                  4,
+                                  OSMESA_CONTEXT_MINOR_VERSION,
+                                  3,
+                                  0};
         context_ = library_.create(attributes, nullptr);
         if (!context_) throw ContextError("OSMesa: has no OpenGL 4.3 core");
     }

@@ -13,7 +13,9 @@ int mip_levels(glm::ivec2 size) {
     return levels;
 }
 
-glm::ivec2 level_size(glm::ivec2 size, int level) { return glm::max(glm::ivec2(size.x >> level, size.y >> level), glm::ivec2(1)); }
+glm::ivec2 level_size(glm::ivec2 size, int level) {
+    return glm::max(glm::ivec2(size.x >> level, size.y >> level), glm::ivec2(1));
+}
 
 /// Shadow rays from `count` of the bound surfaces to light `light`, traced.
 void trace_shadow_rays(const gl::Program& rays, const Work& work, std::size_t first_surface, int light) {
@@ -111,8 +113,9 @@ void FarLightPass::run(const Work& work, unsigned sample_index, int bounces) con
     for (int bounce = 0; bounce < bounces; ++bounce) {
         // The first rays leave the camera's surfaces, later ones the paths' vertices, which every bounce overwrites.
         const bool first = bounce == 0;
-        HemisphereRays{first ? work.first_pixel : 0, sample_index, static_cast<unsigned>(bounce), first, first, far_reach}.run(
-            hemisphere_, work);
+        HemisphereRays{
+            first ? work.first_pixel : 0, sample_index, static_cast<unsigned>(bounce), first, first, far_reach}
+            .run(hemisphere_, work);
         work.tracer.trace(work.count, true, work.counting);
         work.batch.vertices.bind_storage(binding::surfaces);
         bounce_.set("ray_count", static_cast<unsigned>(work.count));
@@ -150,7 +153,8 @@ const gl::Texture& FilterPass::run(Targets& targets, int blur_levels) const {
         mip_.run(level_size(targets.size, i));
     }
     const glm::ivec2 size = level_size(targets.size, level);
-    if (!targets.blurred || targets.blurred.size() != size) targets.blurred = gl::Texture("blurred far light", GL_RGBA32F, size);
+    if (!targets.blurred || targets.blurred.size() != size)
+        targets.blurred = gl::Texture("blurred far light", GL_RGBA32F, size);
     targets.blurred.bind_image(0, GL_WRITE_ONLY);
     targets.mips.bind(0);
     blur_.set("source_level", level);
@@ -158,7 +162,8 @@ const gl::Texture& FilterPass::run(Targets& targets, int blur_levels) const {
     return targets.blurred;
 }
 
-void SynthesisPass::run(const Targets& targets, const gl::Texture& filtered, int view, Method method, int frames) const {
+void SynthesisPass::run(const Targets& targets, const gl::Texture& filtered, int view, Method method,
+                        int frames) const {
     filtered.bind(0);
     targets.view.bind_image(0, GL_WRITE_ONLY);
     program_.set("view", view);

@@ -11,7 +11,7 @@ namespace farfield {
 /// Accumulators of one resolution; sums over frames, see shaders/common.glsl.
 struct Targets {
     explicit Targets(glm::ivec2 size);
-    void clear();            ///< everything: scene, camera or light transport changed
+    void clear();  ///< everything: scene, camera or light transport changed
     void bind() const;
     std::size_t pixels() const { return static_cast<std::size_t>(size.x) * size.y; }
 

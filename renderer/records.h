@@ -53,9 +53,9 @@ inline constexpr std::size_t ray_bytes = 32, hit_bytes = 16, surface_bytes = 32,
 
 /// Binding points of storage buffers, and of uniform buffers.
 namespace binding {
-inline constexpr unsigned rays = 0, hits = 1, surfaces = 2, paths = 3, materials = 4, lights = 5, direct = 6, geometry = 7,
-                          reflectance = 8, far_light = 9, indirect = 10, occlusion = 11, counters = 12;
+inline constexpr unsigned rays = 0, hits = 1, surfaces = 2, paths = 3, materials = 4, lights = 5, direct = 6,
+                          geometry = 7, reflectance = 8, far_light = 9, indirect = 10, occlusion = 11, counters = 12;
 inline constexpr unsigned frame = 0, parameters = 1;  // of uniform buffers
-}
+}  // namespace binding
 
 }  // namespace farfield

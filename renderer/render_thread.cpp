@@ -24,8 +24,8 @@ constexpr double interactive_milliseconds = 80.0;
 constexpr double step_milliseconds = 25.0;
 /// A picture of an unfinished frame is shown after so long.
 constexpr auto longest_wait = std::chrono::milliseconds(150);
-/// Scenes with more nodes get no program with every number live: its compilation takes seconds on llvmpipe (27 nodes 0.8 s,
-/// 43 nodes 1.6 s). They rely on the program with the selected node live.
+/// Scenes with more nodes get no program with every number live: its compilation takes seconds on llvmpipe (27 nodes
+/// 0.8 s, 43 nodes 1.6 s). They rely on the program with the selected node live.
 constexpr int largest_live_scene = 32;
 
 struct Slot {
@@ -60,8 +60,8 @@ struct RenderThread::State {
     double milliseconds_per_pixel_sample = 0.0;  ///< measured on the last frame; 0: not yet
     bool unshown = false;                        ///< another view, other settings or a finished frame
     int shown_samples = 0;
-    bool preview = false;                        ///< the first picture after an edit, quick and small
-    bool gave_up = false;                        ///< background compilation failed for this scene: do not try again
+    bool preview = false;  ///< the first picture after an edit, quick and small
+    bool gave_up = false;  ///< background compilation failed for this scene: do not try again
 
     void run();
     bool wait_for_work();
@@ -150,7 +150,8 @@ bool RenderThread::State::wait_for_work() {
 /// So small that a picture with one sample keeps to its time.
 glm::ivec2 RenderThread::State::quick_size() const {
     if (milliseconds_per_pixel_sample <= 0.0) return glm::max(current.size / 8, glm::ivec2(1));
-    const double pixels = interactive_milliseconds / (2.0 * milliseconds_per_pixel_sample);  // 2: one sample, and the camera's
+    const double pixels =
+        interactive_milliseconds / (2.0 * milliseconds_per_pixel_sample);  // 2: one sample, and the camera's
     const double full = static_cast<double>(current.size.x) * current.size.y;
     int divisor = 1;
     while (divisor < 8 && full / (divisor * divisor) > pixels) divisor *= 2;
@@ -163,12 +164,16 @@ void RenderThread::State::take_request() {
     if (!current.scene || current.size.x <= 0 || current.size.y <= 0) return;
     const Scene& scene = *current.scene;
     preview = !renderer->keeps_samples(scene, options) && quick_size() != current.size;
-    // Whatever is there already, the fastest first; a structure not met before has to be compiled. So has the program for a hand
-    // that was quicker than the rest it should have been made in: it serves all further moves.
-    if (!renderer->needs_compile(scene, Tier::specialised)) update(Tier::specialised, 0);
-    else if (current.tuned && !renderer->needs_compile(scene, Tier::specialised, current.tuned)) update(Tier::specialised, current.tuned);
-    else if (!renderer->needs_compile(scene, Tier::live)) update(Tier::live, 0);
-    else update(Tier::specialised, current.interacting ? current.tuned : 0);
+    // Whatever is there already, the fastest first; a structure not met before has to be compiled. So has the program
+    // for a hand that was quicker than the rest it should have been made in: it serves all further moves.
+    if (!renderer->needs_compile(scene, Tier::specialised))
+        update(Tier::specialised, 0);
+    else if (current.tuned && !renderer->needs_compile(scene, Tier::specialised, current.tuned))
+        update(Tier::specialised, current.tuned);
+    else if (!renderer->needs_compile(scene, Tier::live))
+        update(Tier::live, 0);
+    else
+        update(Tier::specialised, current.interacting ? current.tuned : 0);
 }
 
 void RenderThread::State::update(Tier tier, Id tuned) {
@@ -178,7 +183,8 @@ void RenderThread::State::update(Tier tier, Id tuned) {
     options.samples = quick() ? 1 : 0;
     if (milliseconds_per_pixel_sample > 0.0)
         options.batch = static_cast<std::size_t>(step_milliseconds / milliseconds_per_pixel_sample) / 64 * 64;
-    else options.batch = 1 << 12;
+    else
+        options.batch = 1 << 12;
     options.tier = tier;
     options.tuned = tuned;
     std::string problem;
@@ -225,7 +231,8 @@ void RenderThread::State::work() {
             milliseconds_per_pixel_sample = s.frame_milliseconds / work_done;
             const std::lock_guard lock(mutex);
             const double rate = 1e3 / std::max(s.frame_milliseconds, 1e-3);
-            const double smoothed = statistics.frames_per_second > 0.0 ? 0.8 * statistics.frames_per_second + 0.2 * rate : rate;
+            const double smoothed =
+                statistics.frames_per_second > 0.0 ? 0.8 * statistics.frames_per_second + 0.2 * rate : rate;
             statistics = s;
             statistics.frames_per_second = smoothed;
             unshown = true;

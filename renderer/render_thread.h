@@ -41,8 +41,9 @@ public:
     RenderThread& operator=(const RenderThread&) = delete;
 
     void submit(RenderRequest request);  ///< never waits
-    /// The newest finished picture; never waits for rendering. Its texture stays valid and unchanged until the next call of acquire.
-    /// Call with the sharing context current: the call makes that context wait for the picture's fence.
+    /// The newest finished picture; never waits for rendering. Its texture stays valid and unchanged until the next
+    /// call of acquire. Call with the sharing context current: the call makes that context wait for the picture's
+    /// fence.
     RenderedPicture acquire();
 
 private:

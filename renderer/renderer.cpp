@@ -135,8 +135,13 @@ void Renderer::discard() {
 }
 
 Work Renderer::next_work() const {
-    return {programs_, *targets_, batch_, first_pixel_, std::min(batch_size_, targets_->pixels() - first_pixel_),
-            static_cast<int>(scene_.lights.size()), options_.counting};
+    return {programs_,
+            *targets_,
+            batch_,
+            first_pixel_,
+            std::min(batch_size_, targets_->pixels() - first_pixel_),
+            static_cast<int>(scene_.lights.size()),
+            options_.counting};
 }
 
 void Renderer::begin_frame() {

@@ -1,6 +1,6 @@
-// Scene and settings to picture, progressively: every frame adds samples to the accumulators until the scene, the camera
-// or the light transport changes. Blur levels, exposure, view and method never discard what was accumulated; another AO radius
-// discards the ambient occlusion alone, because the far light does not depend on it.
+// Scene and settings to picture, progressively: every frame adds samples to the accumulators until the scene, the
+// camera or the light transport changes. Blur levels, exposure, view and method never discard what was accumulated;
+// another AO radius discards the ambient occlusion alone, because the far light does not depend on it.
 //
 // Work comes in bounded steps, so that a caller can drop it as soon as an edit makes it stale.
 #pragma once
@@ -26,7 +26,8 @@ struct FrameOptions {
     Id tuned = 0;                   ///< node with live parameters in the specialised tier
     int samples = 0;                ///< hemisphere rays per pixel and frame; 0: the scene's setting
     bool counting = false;          ///< count rays and evaluations; costs a little
-    std::size_t batch = Batch::capacity;  ///< pixels for each step, at most Batch::capacity; changes no bit of the picture
+    std::size_t batch =
+        Batch::capacity;  ///< pixels for each step, at most Batch::capacity; changes no bit of the picture
 };
 
 class Renderer {
@@ -34,8 +35,8 @@ public:
     /// Needs a current context, as does every call.
     Renderer();
 
-    /// Takes over the scene and options, decides what stays valid and compiles where the structure is new. Throws ShaderError and
-    /// goes on with the last good scene. True when accumulated samples were discarded.
+    /// Takes over the scene and options, decides what stays valid and compiles where the structure is new. Throws
+    /// ShaderError and goes on with the last good scene. True when accumulated samples were discarded.
     bool update(const Scene& scene, const FrameOptions& options);
     /// Whether `update` with these would have to compile.
     bool needs_compile(const Scene& scene, Tier tier, Id tuned = 0) const { return !programs_.has(scene, tier, tuned); }
@@ -66,8 +67,8 @@ private:
     void finish_frame();
     void synthesise(View view);
     Work next_work() const;
-    /// For each far-light sample. One ray alone answers black or white, so the first sample takes more: a first picture without
-    /// speckle for a few percent of its time.
+    /// For each far-light sample. One ray alone answers black or white, so the first sample takes more: a first picture
+    /// without speckle for a few percent of its time.
     unsigned occlusion_rays() const { return occlusion_samples_ == 0 ? 4 : 1; }
 
     TracePrograms programs_;
@@ -91,10 +92,10 @@ private:
     bool in_frame_ = false;
     std::size_t batch_size_ = 0;
     std::size_t first_pixel_ = 0;  ///< of the next batch
-    int sample_ = -1;  ///< -1: camera and direct light
+    int sample_ = -1;              ///< -1: camera and direct light
     int frame_samples_ = 0;
-    int completed_cameras_ = 0;   ///< frames whose camera pass is in the accumulators
-    unsigned far_samples_ = 0;    ///< of every pixel since the last discard
+    int completed_cameras_ = 0;  ///< frames whose camera pass is in the accumulators
+    unsigned far_samples_ = 0;   ///< of every pixel since the last discard
     unsigned occlusion_samples_ = 0;
     std::chrono::steady_clock::time_point frame_start_;
     Statistics statistics_;

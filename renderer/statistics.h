@@ -23,7 +23,7 @@ struct Statistics {
     double compile_milliseconds = 0.0;  ///< of the last program
     bool specialised = false;           ///< the picture comes from the program with literals
     std::uint64_t rays = 0;             ///< traced in the last frame, where they are counted (FrameOptions)
-    std::uint64_t evaluations = 0;     ///< of the distance by these rays' marches
+    std::uint64_t evaluations = 0;      ///< of the distance by these rays' marches
     std::uint64_t exhausted_rays = 0;   ///< of these, stopped by the step limit
     std::string device;                 ///< what OpenGL calls the renderer
 };

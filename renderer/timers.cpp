@@ -30,7 +30,8 @@ std::vector<PassTime> Timers::collect() {
         GLuint64 begin = 0, end = 0;
         glGetQueryObjectui64v(intervals_[i].begin.name(), GL_QUERY_RESULT, &begin);
         glGetQueryObjectui64v(intervals_[i].end.name(), GL_QUERY_RESULT, &end);
-        auto pass = std::find_if(passes.begin(), passes.end(), [&](const PassTime& p) { return p.name == intervals_[i].name; });
+        auto pass =
+            std::find_if(passes.begin(), passes.end(), [&](const PassTime& p) { return p.name == intervals_[i].name; });
         if (pass == passes.end()) pass = passes.insert(passes.end(), {intervals_[i].name, 0.0});
         pass->milliseconds += static_cast<double>(end - begin) * 1e-6;
     }

@@ -14,9 +14,9 @@ namespace {
 constexpr std::size_t cache_size = 64;
 constexpr int generated_file = 2;  // its number in #line directives
 
-/// So many parameters are copied to private variables before the march, which makes them half as fast as literals; with more
-/// the copies spill and the driver compiles for seconds, so that they are read from the buffer, 8 times slower than literals
-/// (measured on llvmpipe: 136 parameters 2.1 x against 8.4 x the frame time).
+/// So many parameters are copied to private variables before the march, which makes them half as fast as literals; with
+/// more the copies spill and the driver compiles for seconds, so that they are read from the buffer, 8 times slower
+/// than literals (measured on llvmpipe: 136 parameters 2.1 x against 8.4 x the frame time).
 constexpr std::size_t most_copied_parameters = 1024;
 
 /// The driver's log with the name of the node whose line it complains about. Logs name lines as 2:17(8) or 2(17).
@@ -43,7 +43,8 @@ std::string trace_source(const GeneratedScene& generated) {
         text += fmt::format("layout(std140, binding = {}) uniform Parameters {{ vec4 parameter_block[{}]; }};\n",
                             binding::parameters, (count + 3) / 4);
     if (count > 0 && copied) {
-        text += fmt::format("float parameter_copy[{}];\nfloat parameter(int i) {{ return parameter_copy[i]; }}\n", count);
+        text +=
+            fmt::format("float parameter_copy[{}];\nfloat parameter(int i) {{ return parameter_copy[i]; }}\n", count);
         for (std::size_t i = 0; i < count; ++i)
             load += fmt::format("    parameter_copy[{}] = parameter_block[{}][{}];\n", i, i / 4, i % 4);
     } else if (count > 0) {
@@ -64,8 +65,10 @@ void TracePrograms::select(const Scene& scene, Tier tier, Id tuned) {
     const GeneratedScene generated = generate(scene, tier, tuned);
     const auto found =
         std::find_if(cache_.begin(), cache_.end(), [&](const Entry& entry) { return entry.key == generated.key; });
-    if (found == cache_.end()) compile(scene, generated);
-    else cache_.splice(cache_.begin(), cache_, found);
+    if (found == cache_.end())
+        compile(scene, generated);
+    else
+        cache_.splice(cache_.begin(), cache_, found);
     current_ = &cache_.front().program;
     parameters_.upload(std::span<const float>(generated.parameters));
 }

@@ -1,5 +1,5 @@
-// The programs made from scenes: trace.glsl with the generated distance function in front. Two tiers (sdf/codegen.h); a cache
-// by the code's text, so that undo and redo find their program again.
+// The programs made from scenes: trace.glsl with the generated distance function in front. Two tiers (sdf/codegen.h); a
+// cache by the code's text, so that undo and redo find their program again.
 #pragma once
 
 #include "renderer/gl.h"
@@ -15,8 +15,8 @@ class TracePrograms {
 public:
     TracePrograms();
 
-    /// Makes a program of `scene` (see generate) current for `trace`; compiles it if the cache has none. When that fails it
-    /// throws ShaderError whose message names the node, and the last good program stays.
+    /// Makes a program of `scene` (see generate) current for `trace`; compiles it if the cache has none. When that
+    /// fails it throws ShaderError whose message names the node, and the last good program stays.
     void select(const Scene& scene, Tier tier, Id tuned = 0);
     /// Whether select would find its program in the cache.
     bool has(const Scene& scene, Tier tier, Id tuned = 0) const;

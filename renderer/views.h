@@ -21,12 +21,16 @@ inline constexpr ViewInfo view_table[] = {
     {View::result, "result", "Result", "Direct light plus albedo x ambient occlusion x filtered far light"},
     {View::direct, "direct", "Direct light", "Emission, Lambert and Phong reflection of the lights, with hard shadows"},
     {View::coarse, "coarse", "Coarse far light", "Monte-Carlo far light as accumulated, on a white surface"},
-    {View::filtered, "filtered", "Filtered far light", "Far light after the mip chain and the blur, on a white surface"},
-    {View::direct_filtered, "direct+filtered", "Direct + filtered", "Direct light plus albedo x filtered far light, without ambient occlusion"},
-    {View::occlusion, "occlusion", "Ambient occlusion", "The fraction of short hemisphere rays that leave the AO radius"},
+    {View::filtered, "filtered", "Filtered far light",
+     "Far light after the mip chain and the blur, on a white surface"},
+    {View::direct_filtered, "direct+filtered", "Direct + filtered",
+     "Direct light plus albedo x filtered far light, without ambient occlusion"},
+    {View::occlusion, "occlusion", "Ambient occlusion",
+     "The fraction of short hemisphere rays that leave the AO radius"},
     {View::normals, "normals", "Normals", "World-space normals, each component from -1..1 to 0..1"},
     {View::depth, "depth", "Depth", "Distance from the camera in metres; the display maps it to near white, far black"},
-    {View::steps, "steps", "Step count", "Distance evaluations of the camera ray; the display maps 0 to black and 128 to white"},
+    {View::steps, "steps", "Step count",
+     "Distance evaluations of the camera ray; the display maps 0 to black and 128 to white"},
 };
 
 inline std::span<const ViewInfo> views() { return view_table; }

@@ -27,8 +27,7 @@ std::string literal(glm::vec3 v) {
 std::string literal(const glm::mat3& m) {
     std::string text = "mat3(";
     for (int column = 0; column < 3; ++column)
-        for (int row = 0; row < 3; ++row)
-            text += literal(m[column][row]) + (column == 2 && row == 2 ? ")" : ", ");
+        for (int row = 0; row < 3; ++row) text += literal(m[column][row]) + (column == 2 && row == 2 ? ")" : ", ");
     return text;
 }
 
@@ -80,8 +79,10 @@ public:
         for (std::size_t i = 0; i < n.values.size(); ++i) {
             const Parameter& parameter = info(n.kind).parameters[i];
             const glm::vec3 v = to_code_units(parameter, n.values[i]);
-            if (parameter.components() == 1) values.push_back(v.x);
-            else add(v);
+            if (parameter.components() == 1)
+                values.push_back(v.x);
+            else
+                add(v);
         }
         values.push_back(static_cast<float>(material));
         return place->second;
@@ -135,11 +136,13 @@ private:
     }
 
     static Numbers live_numbers(const Node& n, const std::string& p, std::size_t first) {
-        Numbers numbers{fmt::format("place({}, {})", p, first), fmt::format("parameter({}) * ", first + scale_offset), "", "", false};
+        Numbers numbers{fmt::format("place({}, {})", p, first), fmt::format("parameter({}) * ", first + scale_offset),
+                        "", "", false};
         std::size_t at = first + parameters_offset;
         for (const Parameter& parameter : info(n.kind).parameters) {
             const int components = parameter.components();
-            numbers.arguments += fmt::format(fmt::runtime(components == 1 ? ", parameter({})" : ", parameter3({})"), at);
+            numbers.arguments +=
+                fmt::format(fmt::runtime(components == 1 ? ", parameter({})" : ", parameter3({})"), at);
             at += static_cast<std::size_t>(components);
         }
         numbers.material = fmt::format("uint(parameter({}))", at);
@@ -150,7 +153,8 @@ private:
         const Transform& t = n.transform;
         Numbers numbers{p, "", "", fmt::format("{}u", index), true};
         std::string& q = numbers.point;
-        const bool moved = t.translate != glm::vec3(0.0f), turned = inverse != glm::mat3(1.0f), scaled = t.scale != 1.0f;
+        const bool moved = t.translate != glm::vec3(0.0f), turned = inverse != glm::mat3(1.0f),
+                   scaled = t.scale != 1.0f;
         if (moved) q = fmt::format("{} - {}", p, literal(t.translate));
         if (moved && (turned || scaled)) q = "(" + q + ")";
         if (turned) q = literal(inverse) + " * " + q;
@@ -199,7 +203,9 @@ private:
             out.add(fmt::format("{}vec3 {} = {};", indent, own, num.point), n.id);
         }
         switch (kind.role) {
-            case Role::combine: fold(n, kind, num, own, index, result, out, indent); break;
+            case Role::combine:
+                fold(n, kind, num, own, index, result, out, indent);
+                break;
             case Role::distance:
                 fold(n, kind, num, own, index, result, out, indent);
                 out.add(fmt::format("{}{} = {}({}{});", indent, d, kind.function, d, args), n.id);
@@ -212,8 +218,11 @@ private:
                     out.add(fmt::format("{}{} = {}({}, {}{});", indent, d, kind.secondary, d, own, args), n.id);
                 break;
             }
-            case Role::repeat: repeat(n, kind, num, own, index, result, id, out, indent); break;
-            case Role::primitive: break;
+            case Role::repeat:
+                repeat(n, kind, num, own, index, result, id, out, indent);
+                break;
+            case Role::primitive:
+                break;
         }
         if (!num.factor.empty()) out.add(fmt::format("{}{} = {}{};", indent, d, num.factor, d), n.id);
         return result;
@@ -248,7 +257,8 @@ private:
         }
     }
 
-    static std::string combination(const KindInfo& kind, const Numbers& num, const std::string& a, const std::string& b) {
+    static std::string combination(const KindInfo& kind, const Numbers& num, const std::string& a,
+                                   const std::string& b) {
         if (kind.role != Role::combine) return fmt::format("min({}, {})", a, b);
         if (num.hard && kind.when_zero) return fmt::format(fmt::runtime(kind.when_zero), a, b);
         return fmt::format("{}({}, {}{})", kind.function, a, b, num.arguments);
@@ -260,19 +270,23 @@ private:
         const std::string& b = next.distance;
         if (kind.role != Role::combine || (num.hard && kind.when_zero)) {
             const KindInfo& hard = kind.role == Role::combine ? kind : info(NodeKind::union_);
-            return fmt::format("{} ? {} : {}", fmt::format(fmt::runtime(hard.second_shows), a, b), next.material, so_far.material);
+            return fmt::format("{} ? {} : {}", fmt::format(fmt::runtime(hard.second_shows), a, b), next.material,
+                               so_far.material);
         }
-        return fmt::format("blend_materials({}, {}, {}({}, {}{}))", so_far.material, next.material, kind.secondary, a, b, num.arguments);
+        return fmt::format("blend_materials({}, {}, {}({}, {}{}))", so_far.material, next.material, kind.secondary, a,
+                           b, num.arguments);
     }
 
     /// The content becomes a function of its own, called for each cell that can hold the nearest copy.
     void repeat(const Node& n, const KindInfo& kind, const Numbers& num, const std::string& p, std::uint32_t index,
                 const Result& result, int id, Lines& out, const std::string& indent) {
         const std::string& d = result.distance;
-        const std::string content = fmt::format("distance_of_copy{}", id), material_of = fmt::format("material_of_copy{}", id);
+        const std::string content = fmt::format("distance_of_copy{}", id),
+                          material_of = fmt::format("material_of_copy{}", id);
         Lines body;
         fold(n, kind, num, "p", index, {"d", with_material_ ? "m" : ""}, body, "    ");
-        functions_.add(with_material_ ? fmt::format("uint {}(vec3 p) {{", material_of) : fmt::format("float {}(vec3 p) {{", content),
+        functions_.add(with_material_ ? fmt::format("uint {}(vec3 p) {{", material_of)
+                                      : fmt::format("float {}(vec3 p) {{", content),
                        n.id, "one copy of " + display_name(n));
         functions_.append(body);
         functions_.add(with_material_ ? "    return m;" : "    return d;");
@@ -284,7 +298,8 @@ private:
             cells = fmt::format("{}({})", kind.secondary, num.arguments.substr(2));
         } else {
             std::vector<glm::vec3> values;
-            for (std::size_t i = 0; i < n.values.size(); ++i) values.push_back(to_code_units(kind.parameters[i], n.values[i]));
+            for (std::size_t i = 0; i < n.values.size(); ++i)
+                values.push_back(to_code_units(kind.parameters[i], n.values[i]));
             cells = std::to_string(kind.cells(values));
         }
         const std::string loop = fmt::format("{}for (int cell = 0; cell < {}; ++cell)", indent, cells);
@@ -294,7 +309,8 @@ private:
             out.add(fmt::format("{} {} = min({}, {}({}));", loop, d, d, content, copy), n.id);
             return;
         }
-        const std::string nearest = fmt::format("q{}", id), q = fmt::format("r{}", id), e = fmt::format("e{}", next_child_++);
+        const std::string nearest = fmt::format("q{}", id), q = fmt::format("r{}", id),
+                          e = fmt::format("e{}", next_child_++);
         out.add(fmt::format("{}vec3 {} = {};", indent, nearest, p), n.id);
         out.add(loop + " {", n.id);
         out.add(fmt::format("{}    vec3 {} = {};", indent, q, copy), n.id);
@@ -320,7 +336,8 @@ constexpr const char* live_helpers =
     "\n"
     "// p in the frame of a node whose translation, inverse rotation (by columns) and scale start at i.\n"
     "vec3 place(vec3 p, int i) {\n"
-    "    return mat3(parameter3(i + 3), parameter3(i + 6), parameter3(i + 9)) * (p - parameter3(i)) / parameter(i + 12);\n"
+    "    return mat3(parameter3(i + 3), parameter3(i + 6), parameter3(i + 9)) * (p - parameter3(i)) / parameter(i + "
+    "12);\n"
     "}\n";
 
 }  // namespace

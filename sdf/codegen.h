@@ -1,8 +1,8 @@
 // Scene tree to GLSL. The text is shown to users, so it reads like hand-written code: one line for each node, its name
 // as comment, nothing but what the scene uses. Two tiers of the same program exist, because on llvmpipe a number from a
-// buffer costs far more than a literal: `specialised` has literals, so that identity transforms and hard blends fold away;
-// `live` reads every number from a parameter block, so that no parameter edit needs a new program. In between, a specialised
-// program can have one `tuned` node whose numbers are live: what the editor uses while a hand moves them.
+// buffer costs far more than a literal: `specialised` has literals, so that identity transforms and hard blends fold
+// away; `live` reads every number from a parameter block, so that no parameter edit needs a new program. In between, a
+// specialised program can have one `tuned` node whose numbers are live: what the editor uses while a hand moves them.
 #pragma once
 
 #include "sdf/scene.h"
@@ -16,7 +16,8 @@ enum class Tier { live, specialised };
 
 struct GeneratedScene {
     /// Shape functions used, then `float scene_distance(vec3 p)` and `float scene_surface(vec3 p, out uint material)`
-    /// (world frame, metres; material code as blend_materials makes it). With parameters it also needs `float parameter(int)`.
+    /// (world frame, metres; material code as blend_materials makes it). With parameters it also needs `float
+    /// parameter(int)`.
     std::string text;
     /// The code without comments. Equal keys mean equal programs: renaming a node changes the text alone, and in the
     /// live tier no parameter edit changes the key.

@@ -136,7 +136,9 @@ Id apply_one(Scene& scene, const SetValue& e) {
         throw EditError("direction: expected any length but 0");
     try {
         set_value(scene, e.object, e.key, e.value);
-    } catch (const std::logic_error& error) { throw EditError(error.what()); }
+    } catch (const std::logic_error& error) {
+        throw EditError(error.what());
+    }
     return 0;
 }
 
@@ -150,9 +152,14 @@ Id apply_one(Scene& scene, const SetName& e) {
             node.name = e.name;
             return 0;
         }
-        case ObjectType::material: rename(scene.materials, e.object.id, e.name, "material"); return 0;
-        case ObjectType::light: rename(scene.lights, e.object.id, e.name, "light"); return 0;
-        default: throw EditError("only nodes, materials and lights have names");
+        case ObjectType::material:
+            rename(scene.materials, e.object.id, e.name, "material");
+            return 0;
+        case ObjectType::light:
+            rename(scene.lights, e.object.id, e.name, "light");
+            return 0;
+        default:
+            throw EditError("only nodes, materials and lights have names");
     }
 }
 
@@ -297,12 +304,18 @@ std::string node_name(const Scene& scene, Id id) {
 
 std::string object_name(const Scene& scene, ObjectRef object) {
     switch (object.type) {
-        case ObjectType::node: return node_name(scene, object.id);
-        case ObjectType::material: return name_in(scene.materials, object.id);
-        case ObjectType::light: return name_in(scene.lights, object.id);
-        case ObjectType::sky: return "sky";
-        case ObjectType::camera: return "camera";
-        case ObjectType::settings: return "settings";
+        case ObjectType::node:
+            return node_name(scene, object.id);
+        case ObjectType::material:
+            return name_in(scene.materials, object.id);
+        case ObjectType::light:
+            return name_in(scene.lights, object.id);
+        case ObjectType::sky:
+            return "sky";
+        case ObjectType::camera:
+            return "camera";
+        case ObjectType::settings:
+            return "settings";
     }
     return "?";
 }

@@ -11,21 +11,56 @@
 
 namespace farfield {
 
-struct SetValue { ObjectRef object; std::string key; glm::vec3 value; };
+struct SetValue {
+    ObjectRef object;
+    std::string key;
+    glm::vec3 value;
+};
 /// Nodes, materials and lights. Names are unique within their type; a node's name may be empty.
-struct SetName { ObjectRef object; std::string name; };
+struct SetName {
+    ObjectRef object;
+    std::string name;
+};
 /// Values whose key both kinds share are kept, the others take their defaults.
-struct SetKind { Id node; NodeKind kind; };
-struct SetLightKind { Id light; LightKind kind; };
-struct SetMaterial { Id node; Id material; };  ///< material 0: inherit
-/// Inserts a subtree before child `index` (-1: at the end). Fresh ids are given to all of it, names that are taken get a number.
-struct InsertNode { Id parent; int index; Node node; };
-struct RemoveNode { Id node; };
-struct MoveNode { Id node; Id parent; int index; };  ///< index counts in the parent before the node is taken out
-struct AddMaterial { Material material; };  ///< gets a fresh id and a free name
-struct RemoveMaterial { Id material; };     ///< its nodes inherit afterwards; the last material stays
-struct AddLight { Light light; };
-struct RemoveLight { Id light; };
+struct SetKind {
+    Id node;
+    NodeKind kind;
+};
+struct SetLightKind {
+    Id light;
+    LightKind kind;
+};
+struct SetMaterial {
+    Id node;
+    Id material;
+};  ///< material 0: inherit
+/// Inserts a subtree before child `index` (-1: at the end). Fresh ids are given to all of it, names that are taken get
+/// a number.
+struct InsertNode {
+    Id parent;
+    int index;
+    Node node;
+};
+struct RemoveNode {
+    Id node;
+};
+struct MoveNode {
+    Id node;
+    Id parent;
+    int index;
+};  ///< index counts in the parent before the node is taken out
+struct AddMaterial {
+    Material material;
+};  ///< gets a fresh id and a free name
+struct RemoveMaterial {
+    Id material;
+};  ///< its nodes inherit afterwards; the last material stays
+struct AddLight {
+    Light light;
+};
+struct RemoveLight {
+    Id light;
+};
 
 using Edit = std::variant<SetValue, SetName, SetKind, SetLightKind, SetMaterial, InsertNode, RemoveNode, MoveNode,
                           AddMaterial, RemoveMaterial, AddLight, RemoveLight>;
@@ -34,9 +69,9 @@ struct EditError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// Carries out one edit. Throws EditError and leaves the scene as it was when the edit makes no sense: unknown id, value
-/// out of range, name taken, children for a primitive, a node moved into itself, removal of the root.
-/// Returns the id of what was inserted or added, otherwise 0.
+/// Carries out one edit. Throws EditError and leaves the scene as it was when the edit makes no sense: unknown id,
+/// value out of range, name taken, children for a primitive, a node moved into itself, removal of the root. Returns the
+/// id of what was inserted or added, otherwise 0.
 Id apply(Scene& scene, const Edit& edit);
 
 /// What the undo list calls it, as "radius of ring" or "delete sphere".
@@ -60,7 +95,12 @@ public:
     std::uint64_t revision() const;
 
 private:
-    struct Step { Scene scene; std::string description; unsigned gesture; std::uint64_t revision; };
+    struct Step {
+        Scene scene;
+        std::string description;
+        unsigned gesture;
+        std::uint64_t revision;
+    };
     std::vector<Step> steps_;  ///< the state after each step; the first is the start
     std::size_t current_ = 0;
     std::uint64_t next_revision_ = 1;

@@ -11,8 +11,13 @@ FieldEvaluator::FieldEvaluator(const Scene& scene) {
 
 FieldEvaluator::Part FieldEvaluator::prepare(const Scene& scene, const Node& node, std::uint32_t inherited) {
     const KindInfo& kind = info(node.kind);
-    Part part{&kind, {}, node.transform.translate, glm::transpose(rotation_matrix(node.transform)),
-              node.transform.scale, material_index(scene, node.material, inherited), {}};
+    Part part{&kind,
+              {},
+              node.transform.translate,
+              glm::transpose(rotation_matrix(node.transform)),
+              node.transform.scale,
+              material_index(scene, node.material, inherited),
+              {}};
     for (std::size_t i = 0; i < kind.parameters.size(); ++i)
         part.values.push_back(to_code_units(kind.parameters[i], node.values[i]));
     for (const Node& child : node.children)
@@ -40,8 +45,12 @@ FieldEvaluator::Sample FieldEvaluator::evaluate(const Part& part, glm::vec3 p) {
     const glm::vec3 q = part.to_own * (p - part.translate) / part.scale;
     Sample s{empty_distance, part.material};
     switch (kind.role) {
-        case Role::primitive: s.distance = kind.primitive(q, part.values); break;
-        case Role::combine: s = fold(part, q); break;
+        case Role::primitive:
+            s.distance = kind.primitive(q, part.values);
+            break;
+        case Role::combine:
+            s = fold(part, q);
+            break;
         case Role::distance:
             s = fold(part, q);
             s.distance = kind.distance(s.distance, q, part.values);
@@ -65,9 +74,7 @@ float FieldEvaluator::distance(glm::vec3 p) const {
     return root_.empty() ? empty_distance : evaluate(root_[0], p).distance;
 }
 
-std::uint32_t FieldEvaluator::material(glm::vec3 p) const {
-    return root_.empty() ? 0 : evaluate(root_[0], p).material;
-}
+std::uint32_t FieldEvaluator::material(glm::vec3 p) const { return root_.empty() ? 0 : evaluate(root_[0], p).material; }
 
 glm::vec3 FieldEvaluator::normal(glm::vec3 p, float h) const {
     glm::vec3 gradient;

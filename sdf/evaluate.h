@@ -26,7 +26,10 @@ public:
     std::uint32_t material(glm::vec3 p) const;
 
 private:
-    struct Sample { float distance; std::uint32_t material; };
+    struct Sample {
+        float distance;
+        std::uint32_t material;
+    };
     struct Part {
         const KindInfo* kind;
         std::vector<glm::vec3> values;  ///< in code units

@@ -29,7 +29,8 @@ struct MemberOf<V T::*> {
 template <auto M, class T = typename MemberOf<decltype(M)>::type>
 Field<T> field(Parameter parameter) {
     parameter.initial = pack(T{}.*M);
-    return {parameter, [](const T& object) { return pack(object.*M); }, [](T& object, vec3 v) { unpack(v, object.*M); }};
+    return {parameter, [](const T& object) { return pack(object.*M); },
+            [](T& object, vec3 v) { unpack(v, object.*M); }};
 }
 
 constexpr float big = largest_value;
@@ -42,7 +43,8 @@ template <>
 std::span<const Field<Transform>> fields<Transform>() {
     static const std::vector<Field<Transform>> table = {
         field<&Transform::translate>({"translate", "Moves the node in its parent's frame", P::vector, Unit::metres}),
-        field<&Transform::rotate>({"rotate", "Turns about x, then y, then z", P::vector, Unit::degrees, -36000.0f, 36000.0f}),
+        field<&Transform::rotate>(
+            {"rotate", "Turns about x, then y, then z", P::vector, Unit::degrees, -36000.0f, 36000.0f}),
         field<&Transform::scale>({"scale", "Uniform scale", P::number, Unit::none, 1e-4f, 1e4f}),
     };
     return table;
@@ -51,9 +53,12 @@ std::span<const Field<Transform>> fields<Transform>() {
 template <>
 std::span<const Field<Material>> fields<Material>() {
     static const std::vector<Field<Material>> table = {
-        field<&Material::albedo>({"albedo", "Fraction of light that is diffusely reflected", P::color, Unit::none, 0.0f, 1.0f}),
-        field<&Material::specular>({"specular", "Fraction of direct light in the Phong highlight", P::number, Unit::none, 0.0f, 1.0f}),
-        field<&Material::exponent>({"exponent", "Phong exponent: the higher, the smaller the highlight", P::number, Unit::none, 1.0f, 1e4f}),
+        field<&Material::albedo>(
+            {"albedo", "Fraction of light that is diffusely reflected", P::color, Unit::none, 0.0f, 1.0f}),
+        field<&Material::specular>(
+            {"specular", "Fraction of direct light in the Phong highlight", P::number, Unit::none, 0.0f, 1.0f}),
+        field<&Material::exponent>(
+            {"exponent", "Phong exponent: the higher, the smaller the highlight", P::number, Unit::none, 1.0f, 1e4f}),
         field<&Material::emission>({"emission", "Emitted radiance, W/(m² sr)", P::color, Unit::none, 0.0f, big}),
     };
     return table;
@@ -64,7 +69,8 @@ std::span<const Field<Light>> fields<Light>() {
     static const std::vector<Field<Light>> table = {
         field<&Light::position>({"position", "Where the light stands", P::vector, Unit::metres}),
         field<&Light::direction>({"direction", "The way the light travels", P::vector, Unit::none}),
-        field<&Light::intensity>({"intensity", "Point light: W/sr. Directional light: W/m² across the beam", P::color, Unit::none, 0.0f, big}),
+        field<&Light::intensity>({"intensity", "Point light: W/sr. Directional light: W/m² across the beam", P::color,
+                                  Unit::none, 0.0f, big}),
     };
     return table;
 }
@@ -83,7 +89,8 @@ std::span<const Field<Camera>> fields<Camera>() {
     static const std::vector<Field<Camera>> table = {
         field<&Camera::position>({"position", "Where the camera stands", P::vector, Unit::metres}),
         field<&Camera::target>({"target", "What it looks at", P::vector, Unit::metres}),
-        field<&Camera::field_of_view>({"field_of_view", "Vertical angle of view", P::number, Unit::degrees, 1.0f, 170.0f}),
+        field<&Camera::field_of_view>(
+            {"field_of_view", "Vertical angle of view", P::number, Unit::degrees, 1.0f, 170.0f}),
     };
     return table;
 }
@@ -91,12 +98,23 @@ std::span<const Field<Camera>> fields<Camera>() {
 template <>
 std::span<const Field<Settings>> fields<Settings>() {
     static const std::vector<Field<Settings>> table = {
-        field<&Settings::method>({"method", "paper: filtered far light x ambient occlusion. reference: unfiltered path tracing", P::choice, Unit::none, 0.0f, 1.0f, {}, method_names}),
-        field<&Settings::samples>({"samples", "Hemisphere rays per pixel and frame", P::integer, Unit::none, 1.0f, 64.0f}),
+        field<&Settings::method>({"method",
+                                  "paper: filtered far light x ambient occlusion. reference: unfiltered path tracing",
+                                  P::choice,
+                                  Unit::none,
+                                  0.0f,
+                                  1.0f,
+                                  {},
+                                  method_names}),
+        field<&Settings::samples>(
+            {"samples", "Hemisphere rays per pixel and frame", P::integer, Unit::none, 1.0f, 64.0f}),
         field<&Settings::bounces>({"bounces", "Diffuse bounces of far light", P::integer, Unit::none, 1.0f, 8.0f}),
-        field<&Settings::blur_levels>({"blur_levels", "Mip level at which far light is blurred; 0 leaves it as it is", P::integer, Unit::none, 0.0f, 8.0f}),
-        field<&Settings::ao_radius>({"ao_radius", "How far ambient occlusion looks", P::number, Unit::metres, 1e-3f, 1e3f}),
-        field<&Settings::exposure>({"exposure", "Brightness of the picture; one stop doubles it", P::number, Unit::stops, -20.0f, 20.0f}),
+        field<&Settings::blur_levels>({"blur_levels", "Mip level at which far light is blurred; 0 leaves it as it is",
+                                       P::integer, Unit::none, 0.0f, 8.0f}),
+        field<&Settings::ao_radius>(
+            {"ao_radius", "How far ambient occlusion looks", P::number, Unit::metres, 1e-3f, 1e3f}),
+        field<&Settings::exposure>(
+            {"exposure", "Brightness of the picture; one stop doubles it", P::number, Unit::stops, -20.0f, 20.0f}),
     };
     return table;
 }
@@ -124,9 +142,12 @@ bool visit_object(S& scene, ObjectRef ref, Visitor visit) {
             for (auto& light : scene.lights)
                 if (light.id == ref.id) return visit(light), true;
             return false;
-        case ObjectType::sky: return visit(scene.sky), true;
-        case ObjectType::camera: return visit(scene.camera), true;
-        case ObjectType::settings: return visit(scene.settings), true;
+        case ObjectType::sky:
+            return visit(scene.sky), true;
+        case ObjectType::camera:
+            return visit(scene.camera), true;
+        case ObjectType::settings:
+            return visit(scene.settings), true;
     }
     return false;
 }
@@ -153,7 +174,8 @@ bool use_field(T& object, std::string_view key, Use use) {
 }
 
 [[noreturn]] void unknown(ObjectRef ref, std::string_view key) {
-    throw std::out_of_range(fmt::format("object {} of type {} has no value \"{}\"", ref.id, static_cast<int>(ref.type), key));
+    throw std::out_of_range(
+        fmt::format("object {} of type {} has no value \"{}\"", ref.id, static_cast<int>(ref.type), key));
 }
 
 }  // namespace

@@ -14,15 +14,57 @@
 namespace farfield {
 
 enum class NodeKind {
-    sphere, box, rounded_box, torus, capsule, capped_cylinder, cone, plane,
-    infinite_cylinder, box_frame, capped_torus, link, rounded_cylinder, capped_cone, round_cone,
-    hexagonal_prism, triangular_prism, solid_angle, cut_sphere, cut_hollow_sphere, death_star,
-    vesica, rhombus, octahedron, pyramid, ellipsoid,
-    union_, intersect, subtract, xor_,
-    chamfer_union, chamfer_intersect, chamfer_subtract, round_union, round_intersect, round_subtract,
-    stairs_union, stairs_intersect, stairs_subtract, columns_union, columns_intersect, columns_subtract,
-    pipe, engrave, groove, tongue,
-    mirror, repeat, twist, shell, round,
+    sphere,
+    box,
+    rounded_box,
+    torus,
+    capsule,
+    capped_cylinder,
+    cone,
+    plane,
+    infinite_cylinder,
+    box_frame,
+    capped_torus,
+    link,
+    rounded_cylinder,
+    capped_cone,
+    round_cone,
+    hexagonal_prism,
+    triangular_prism,
+    solid_angle,
+    cut_sphere,
+    cut_hollow_sphere,
+    death_star,
+    vesica,
+    rhombus,
+    octahedron,
+    pyramid,
+    ellipsoid,
+    union_,
+    intersect,
+    subtract,
+    xor_,
+    chamfer_union,
+    chamfer_intersect,
+    chamfer_subtract,
+    round_union,
+    round_intersect,
+    round_subtract,
+    stairs_union,
+    stairs_intersect,
+    stairs_subtract,
+    columns_union,
+    columns_intersect,
+    columns_subtract,
+    pipe,
+    engrave,
+    groove,
+    tongue,
+    mirror,
+    repeat,
+    twist,
+    shell,
+    round,
 };
 
 /// How the generated code uses the kind's function of shapes.glsl or operations.glsl.
@@ -54,8 +96,8 @@ struct KindInfo {
     /// A second function from there, or null. combine: float f(a, b, parameters...), the fraction of b's material;
     /// domain: float f(d, p, parameters...), a safe distance; repeat: int f(parameters...), the number of cells.
     const char* secondary;
-    /// combine: GLSL of the distances {0} and {1} to use when all parameters are known to be 0, for the distance and for
-    /// whether the second one's material shows; or null: the functions serve then too.
+    /// combine: GLSL of the distances {0} and {1} to use when all parameters are known to be 0, for the distance and
+    /// for whether the second one's material shows; or null: the functions serve then too.
     const char* when_zero;
     const char* second_shows;
     /// The same functions on the CPU, whichever the role uses.

@@ -12,8 +12,10 @@ int Parameter::components() const {
     switch (type) {
         case ParameterType::number:
         case ParameterType::integer:
-        case ParameterType::choice: return 1;
-        default: return 3;
+        case ParameterType::choice:
+            return 1;
+        default:
+            return 3;
     }
 }
 
@@ -29,13 +31,15 @@ glm::vec3 to_code_units(const Parameter& parameter, glm::vec3 value) {
 
 std::string expectation(const Parameter& parameter) {
     switch (parameter.type) {
-        case ParameterType::flags: return "three of true or false";
-        case ParameterType::choice: return fmt::format("one of {}", fmt::join(parameter.choices, ", "));
-        default: break;
+        case ParameterType::flags:
+            return "three of true or false";
+        case ParameterType::choice:
+            return fmt::format("one of {}", fmt::join(parameter.choices, ", "));
+        default:
+            break;
     }
     const char* kind = parameter.is_whole() ? "whole number" : "number";
-    std::string text =
-        parameter.components() == 1 ? fmt::format("a {}", kind) : fmt::format("three {}s, each", kind);
+    std::string text = parameter.components() == 1 ? fmt::format("a {}", kind) : fmt::format("three {}s, each", kind);
     if (parameter.maximum >= largest_value && parameter.minimum > -largest_value)
         return text + fmt::format(" at least {} (and at most {:g})", parameter.minimum, parameter.maximum);
     return text + fmt::format(" between {:g} and {:g}", parameter.minimum, parameter.maximum);
@@ -45,8 +49,7 @@ std::string why_refused(const Parameter& parameter, glm::vec3 value) {
     for (int i = 0; i < parameter.components(); ++i) {
         const float v = value[i];
         const bool whole = !parameter.is_whole() || v == std::floor(v);
-        if (!(v >= parameter.minimum && v <= parameter.maximum) || !whole)
-            return "expected " + expectation(parameter);
+        if (!(v >= parameter.minimum && v <= parameter.maximum) || !whole) return "expected " + expectation(parameter);
     }
     return {};
 }
@@ -63,11 +66,16 @@ glm::vec3 clamped(const Parameter& parameter, glm::vec3 value) {
 
 std::string_view unit_symbol(Unit unit) {
     switch (unit) {
-        case Unit::metres: return "m";
-        case Unit::degrees: return "°";
-        case Unit::degrees_per_metre: return "°/m";
-        case Unit::stops: return "stops";
-        case Unit::none: break;
+        case Unit::metres:
+            return "m";
+        case Unit::degrees:
+            return "°";
+        case Unit::degrees_per_metre:
+            return "°/m";
+        case Unit::stops:
+            return "stops";
+        case Unit::none:
+            break;
     }
     return "";
 }

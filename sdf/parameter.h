@@ -27,8 +27,8 @@ enum class Unit { none, metres, degrees, degrees_per_metre, stops };
 inline constexpr float largest_value = 1e6f;
 
 struct Parameter {
-    const char* key;   ///< name in files and of the GLSL argument
-    const char* tip;   ///< one sentence for the tooltip and the format's documentation
+    const char* key;  ///< name in files and of the GLSL argument
+    const char* tip;  ///< one sentence for the tooltip and the format's documentation
     ParameterType type = ParameterType::number;
     Unit unit = Unit::none;
     float minimum = -largest_value;  ///< inclusive hard limit of every component: files and edits beyond it are refused
@@ -36,8 +36,8 @@ struct Parameter {
     glm::vec3 initial{0.0f};  ///< the default; x alone counts for one-component types
     std::span<const char* const> choices = {};
 
-    int components() const;      ///< 1 or 3
-    bool is_whole() const;       ///< values are whole numbers
+    int components() const;  ///< 1 or 3
+    bool is_whole() const;   ///< values are whole numbers
 };
 
 /// The value as the generated code takes it: degrees become radians, everything else stays.

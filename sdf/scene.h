@@ -41,8 +41,8 @@ struct Material {
     Id id = 0;
     std::string name;  ///< unique, not empty
     glm::vec3 albedo{0.8f};
-    float specular = 0.0f;   ///< fraction of the light in the highlight, 0..1
-    float exponent = 32.0f;  ///< Phong exponent, >= 1
+    float specular = 0.0f;     ///< fraction of the light in the highlight, 0..1
+    float exponent = 32.0f;    ///< Phong exponent, >= 1
     glm::vec3 emission{0.0f};  ///< emitted radiance, W/(m² sr)
 };
 
@@ -53,7 +53,7 @@ struct Light {
     Id id = 0;
     std::string name;  ///< unique, not empty
     LightKind kind = LightKind::point;
-    glm::vec3 position{0.0f, 3.0f, 0.0f};  ///< point: metres
+    glm::vec3 position{0.0f, 3.0f, 0.0f};    ///< point: metres
     glm::vec3 direction{0.0f, -1.0f, 0.0f};  ///< directional: the way the light travels; any length but 0
     glm::vec3 intensity{10.0f};  ///< point: radiant intensity, W/sr; directional: irradiance across the beam, W/m²
 };
@@ -83,7 +83,7 @@ struct Settings {
 };
 
 struct Scene {
-    Node root;  ///< a union named "scene"; never removed
+    Node root;                        ///< a union named "scene"; never removed
     std::vector<Material> materials;  ///< never empty
     std::vector<Light> lights;
     Sky sky;

@@ -21,8 +21,10 @@ std::set<std::string> identifiers(std::string_view code) {
     std::set<std::string> found;
     std::string word;
     for (const char c : code) {
-        if (std::isalnum(static_cast<unsigned char>(c)) || c == '_') word += c;
-        else if (!word.empty()) found.insert(std::exchange(word, {}));
+        if (std::isalnum(static_cast<unsigned char>(c)) || c == '_')
+            word += c;
+        else if (!word.empty())
+            found.insert(std::exchange(word, {}));
     }
     if (!word.empty()) found.insert(word);
     return found;
@@ -32,7 +34,8 @@ std::set<std::string> identifiers(std::string_view code) {
 /// margin to end the function, an empty line.
 std::vector<Function> parse() {
     std::vector<Function> functions;
-    const std::string text = std::string(embedded_shapes("shapes.glsl")) + std::string(embedded_shapes("operations.glsl"));
+    const std::string text =
+        std::string(embedded_shapes("shapes.glsl")) + std::string(embedded_shapes("operations.glsl"));
     std::string comment, body, name;
     for (std::size_t start = 0; start < text.size();) {
         const std::size_t end = text.find('\n', start);

@@ -22,7 +22,8 @@ struct Outcome {
 
 Outcome farfield_command(const std::string& arguments) {
     Outcome outcome;
-    FILE* pipe = popen(fmt::format("env -u DISPLAY -u WAYLAND_DISPLAY '{}' {} 2>&1", FARFIELD_PROGRAM, arguments).c_str(), "r");
+    FILE* pipe =
+        popen(fmt::format("env -u DISPLAY -u WAYLAND_DISPLAY '{}' {} 2>&1", FARFIELD_PROGRAM, arguments).c_str(), "r");
     if (!pipe) return outcome;
     std::array<char, 4096> buffer{};
     while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe)) outcome.output.append(buffer.data(), n);
@@ -40,8 +41,8 @@ TEST(CommandLine, HelpNamesEveryCommandAndNeedsNoDisplay) {
         EXPECT_NE(help.output.find(word), std::string::npos) << word;
     const Outcome render = farfield_command("render --help");
     EXPECT_EQ(render.status, 0);
-    for (const char* option : {"--size", "--method", "--samples", "--frames", "--blur-levels", "--ao-radius", "--bounces",
-                               "--seed", "--view", "--context", "--exposure"})
+    for (const char* option : {"--size", "--method", "--samples", "--frames", "--blur-levels", "--ao-radius",
+                               "--bounces", "--seed", "--view", "--context", "--exposure"})
         EXPECT_NE(render.output.find(option), std::string::npos) << option;
 }
 
@@ -49,7 +50,8 @@ TEST(CommandLine, RenderedFilesHoldEveryViewAndRepeatBitForBit) {
     const TemporaryFolder folder;
     const std::string options = scene("cornell") + " --size 48x32 --frames 2 --samples 2 --seed 3";
     for (const char* name : {"a", "b"}) {
-        const Outcome render = farfield_command(fmt::format("render {} -o '{}' -o '{}'", options, (folder / fmt::format("{}.exr", name)).string(),
+        const Outcome render = farfield_command(fmt::format("render {} -o '{}' -o '{}'", options,
+                                                            (folder / fmt::format("{}.exr", name)).string(),
                                                             (folder / fmt::format("{}.png", name)).string()));
         ASSERT_EQ(render.status, 0) << render.output;
         EXPECT_EQ(render.output, "");
@@ -64,7 +66,8 @@ TEST(CommandLine, RenderedFilesHoldEveryViewAndRepeatBitForBit) {
     const std::vector<std::string>& channels = exr->spec().channelnames;
     for (const ViewInfo& view : views())
         for (const char* channel : {".R", ".G", ".B"})
-            EXPECT_NE(std::find(channels.begin(), channels.end(), view.key + std::string(channel)), channels.end()) << view.key;
+            EXPECT_NE(std::find(channels.begin(), channels.end(), view.key + std::string(channel)), channels.end())
+                << view.key;
 }
 
 TEST(CommandLine, GeneratedCodeIsPrinted) {
@@ -76,7 +79,8 @@ TEST(CommandLine, GeneratedCodeIsPrinted) {
 TEST(CommandLine, BenchReportsPassesAndEvaluations) {
     const Outcome bench = farfield_command("bench " + scene("cornell") + " --size 32x32 --frames 1 --live");
     EXPECT_EQ(bench.status, 0) << bench.output;
-    for (const char* word : {"compiled in", "frames/s", "camera rays", "far light", "evaluations per ray", "live program"})
+    for (const char* word :
+         {"compiled in", "frames/s", "camera rays", "far light", "evaluations per ray", "live program"})
         EXPECT_NE(bench.output.find(word), std::string::npos) << word;
 }
 
@@ -87,10 +91,13 @@ TEST(CommandLine, WrongUseAndWrongInputExitWithTwo) {
     const std::string output = fmt::format(" -o '{}'", (folder / "out.png").string());
     for (const std::string& arguments :
          {std::string("render"), "render " + scene("cornell"), "render " + scene("cornell") + output + " --size 0x4",
-          "render " + scene("cornell") + output + " --size big", "render " + scene("cornell") + output + " --samples 65",
-          "render " + scene("cornell") + output + " --samples nan", "render " + scene("cornell") + output + " --method magic",
-          "render " + scene("cornell") + output + " --view nothing", "render " + scene("cornell") + output + " --frames 0",
-          "render " + broken + output, "glsl " + broken, "check " + broken, "bench " + broken, std::string("--nonsense"),
+          "render " + scene("cornell") + output + " --size big",
+          "render " + scene("cornell") + output + " --samples 65",
+          "render " + scene("cornell") + output + " --samples nan",
+          "render " + scene("cornell") + output + " --method magic",
+          "render " + scene("cornell") + output + " --view nothing",
+          "render " + scene("cornell") + output + " --frames 0", "render " + broken + output, "glsl " + broken,
+          "check " + broken, "bench " + broken, std::string("--nonsense"),
           "render '" + (folder / "missing.json").string() + "'" + output}) {
         const Outcome outcome = farfield_command(arguments);
         EXPECT_EQ(outcome.status, 2) << arguments << "\n" << outcome.output;
@@ -104,8 +111,8 @@ TEST(CommandLine, WrongUseAndWrongInputExitWithTwo) {
 TEST(CommandLine, AnImpossibleOutputExitsWithOneAndLeavesNothing) {
     const TemporaryFolder folder;
     for (const char* file : {"no/such/folder/a.png", "a.unknown", "a.exr/b.exr"}) {
-        const Outcome outcome = farfield_command(
-            fmt::format("render {} --size 8x8 --frames 1 --samples 1 -o '{}'", scene("cornell"), (folder / file).string()));
+        const Outcome outcome = farfield_command(fmt::format("render {} --size 8x8 --frames 1 --samples 1 -o '{}'",
+                                                             scene("cornell"), (folder / file).string()));
         EXPECT_EQ(outcome.status, 1) << file << "\n" << outcome.output;
     }
     EXPECT_TRUE(std::filesystem::is_empty(folder / ""));

@@ -75,20 +75,29 @@ Edit random_edit(const Scene& scene, std::mt19937& random) {
         case 1:
             return SetName{{pick(2) ? ObjectType::node : ObjectType::material, pick(2) ? any_node() : any_material()},
                            name};
-        case 2: return SetKind{any_node(), any_kind()};
-        case 3: return SetLightKind{any_light(), pick(2) ? LightKind::point : LightKind::directional};
-        case 4: return SetMaterial{any_node(), any_material()};
+        case 2:
+            return SetKind{any_node(), any_kind()};
+        case 3:
+            return SetLightKind{any_light(), pick(2) ? LightKind::point : LightKind::directional};
+        case 4:
+            return SetMaterial{any_node(), any_material()};
         case 5: {
             Node node = make_node(any_kind());
             node.name = pick(2) ? name : "";
             return InsertNode{any_node(), pick(6) - 1, node};
         }
-        case 6: return RemoveNode{any_node()};
-        case 7: return MoveNode{any_node(), any_node(), pick(6) - 1};
-        case 8: return AddMaterial{{0, name}};
-        case 9: return RemoveMaterial{any_material()};
-        case 10: return AddLight{{0, name}};
-        default: return RemoveLight{any_light()};
+        case 6:
+            return RemoveNode{any_node()};
+        case 7:
+            return MoveNode{any_node(), any_node(), pick(6) - 1};
+        case 8:
+            return AddMaterial{{0, name}};
+        case 9:
+            return RemoveMaterial{any_material()};
+        case 10:
+            return AddLight{{0, name}};
+        default:
+            return RemoveLight{any_light()};
     }
 }
 
@@ -227,8 +236,12 @@ TEST(Edit, EveryResultIsAValidScene) {
         try {
             farfield::apply(scene, random_edit(scene, random));
             ++carried_out;
-        } catch (const EditError&) { ASSERT_EQ(to_text(scene), before); }
-        if (i % 10 == 0) { ASSERT_NO_THROW(parse_scene(to_text(scene), "memory")) << to_text(scene); }
+        } catch (const EditError&) {
+            ASSERT_EQ(to_text(scene), before);
+        }
+        if (i % 10 == 0) {
+            ASSERT_NO_THROW(parse_scene(to_text(scene), "memory")) << to_text(scene);
+        }
         if (count_nodes(scene.root) > 60) scene = random_scene(static_cast<unsigned>(i), 12);
     }
     EXPECT_GT(carried_out, 1000);
@@ -311,9 +324,15 @@ TEST(History, EqualRevisionsMeanEqualScenes) {
     std::map<std::uint64_t, std::string> texts;
     for (int i = 0; i < 600; ++i) {
         switch (random() % 4) {
-            case 0: history.undo(); break;
-            case 1: history.redo(); break;
-            default: try { history.apply(random_edit(history.scene(), random), static_cast<unsigned>(random() % 4));
+            case 0:
+                history.undo();
+                break;
+            case 1:
+                history.redo();
+                break;
+            default:
+                try {
+                    history.apply(random_edit(history.scene(), random), static_cast<unsigned>(random() % 4));
                 } catch (const EditError&) {}
         }
         const std::string text = to_text(history.scene());

@@ -20,7 +20,9 @@ std::vector<float> gpu_distances(const Scene& scene, Tier tier, const std::vecto
     const GeneratedScene generated = generate(scene, tier);
     std::string source = "#version 430 core\nlayout(local_size_x = 64) in;\n";
     if (!generated.parameters.empty())
-        source += "layout(std430, binding = 2) readonly buffer P { float block[]; };\nfloat parameter(int i) { return block[i]; }\n";
+        source +=
+            "layout(std430, binding = 2) readonly buffer P { float block[]; };\nfloat parameter(int i) { return "
+            "block[i]; }\n";
     source += generated.text +
               "layout(std430, binding = 0) readonly buffer Points { vec4 points[]; };\n"
               "layout(std430, binding = 1) writeonly buffer Results { float results[]; };\n"
@@ -42,8 +44,8 @@ std::vector<float> gpu_distances(const Scene& scene, Tier tier, const std::vecto
     return results;
 }
 
-/// The largest difference relative to the size of the numbers involved: coordinates are subtracted from points, so float
-/// rounding is relative to the coordinates, not to the distance.
+/// The largest difference relative to the size of the numbers involved: coordinates are subtracted from points, so
+/// float rounding is relative to the coordinates, not to the distance.
 void expect_agreement(const Scene& scene, unsigned seed, const std::string& name) {
     std::mt19937 random(seed);
     std::uniform_real_distribution<float> uniform(-8.0f, 8.0f);
@@ -92,7 +94,8 @@ TEST_F(FieldOnGpu, AgreesWithTheCpuOnEveryKind) {
 }
 
 TEST_F(FieldOnGpu, AgreesWithTheCpuOnRandomScenes) {
-    for (unsigned seed = 0; seed < 8; ++seed) expect_agreement(random_scene(seed, 12), seed, fmt::format("random scene {}", seed));
+    for (unsigned seed = 0; seed < 8; ++seed)
+        expect_agreement(random_scene(seed, 12), seed, fmt::format("random scene {}", seed));
 }
 
 }  // namespace

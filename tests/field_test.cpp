@@ -51,8 +51,9 @@ TEST(Field, SmoothUnionIsOneLipschitzAndNoGreaterThanItsParts) {
 }
 
 TEST(Field, EdgeProfilesHaveTheTightestSafeDistance) {
-    // Where both surfaces run side by side, a = y and b = y - offset, the distance is known: the height above the point at
-    // which the profile's curve is met, and no factor less than 1 takes anything off it. kinds_test shows that they are safe.
+    // Where both surfaces run side by side, a = y and b = y - offset, the distance is known: the height above the point
+    // at which the profile's curve is met, and no factor less than 1 takes anything off it. kinds_test shows that they
+    // are safe.
     constexpr float radius = 0.4f, steps = 3.0f;
     const std::vector<glm::vec3> v{{radius, 0.0f, 0.0f}, {steps, 0.0f, 0.0f}};
     for (const NodeKind kind : {NodeKind::chamfer_union, NodeKind::round_union, NodeKind::stairs_union}) {
@@ -72,7 +73,8 @@ TEST(Field, EdgeProfilesHaveTheTightestSafeDistance) {
             }
             if (kind == NodeKind::stairs_union) {  // on a tread or a riser: one of them is a multiple of a step
                 constexpr float step = radius / (steps + 1.0f);
-                EXPECT_TRUE(std::abs(std::remainder(a, step)) < 1e-6f || std::abs(std::remainder(b, step)) < 1e-6f) << a;
+                EXPECT_TRUE(std::abs(std::remainder(a, step)) < 1e-6f || std::abs(std::remainder(b, step)) < 1e-6f)
+                    << a;
             }
         }
     }

@@ -51,7 +51,8 @@ TEST_F(Render, EglAndOsMesaAgreeAndNothingIsNanOrInfinite) {
             use(kind);
             images.push_back(render(scene, 2));
             for (const ViewInfo& view : views())
-                EXPECT_EQ(count_invalid(renderer_->read(view.view)), 0u) << file << " " << view.key << " " << context_->name();
+                EXPECT_EQ(count_invalid(renderer_->read(view.view)), 0u)
+                    << file << " " << view.key << " " << context_->name();
         }
         EXPECT_LE(compare(images[0], images[1]).rmse, 1e-4) << file;
     }
@@ -162,7 +163,8 @@ TEST_F(Render, ChangesOfSceneCameraAndTransportDiscard) {
                           SetValue{{ObjectType::camera}, "field_of_view", {50.0f, 0.0f, 0.0f}},
                           SetValue{{ObjectType::sky}, "zenith", {1.0f, 1.0f, 1.0f}},
                           SetValue{{ObjectType::material, start.materials[0].id}, "albedo", {0.1f, 0.2f, 0.3f}},
-                          SetValue{{ObjectType::settings}, "bounces", {2.0f, 0.0f, 0.0f}}, RemoveNode{child.id}};
+                          SetValue{{ObjectType::settings}, "bounces", {2.0f, 0.0f, 0.0f}},
+                          RemoveNode{child.id}};
     for (const Edit& edit : edits) {
         render(start, 1);
         Scene scene = start;
@@ -192,10 +194,12 @@ TEST_F(Render, ACompileErrorNamesTheNodeAndKeepsTheLastGoodScene) {
 
 TEST_F(Render, RecordsHaveTheLayoutOfTheShaders) {
     const gl::Program program = load_program("gbuffer.glsl");
-    const std::pair<const char*, std::size_t> members[] = {
-        {"camera_position", offsetof(FrameRecord, camera_position)}, {"sky_horizon", offsetof(FrameRecord, sky_horizon)},
-        {"sky_zenith", offsetof(FrameRecord, sky_zenith)}, {"image_size", offsetof(FrameRecord, image_size)},
-        {"seed", offsetof(FrameRecord, seed)}, {"light_count", offsetof(FrameRecord, light_count)}};
+    const std::pair<const char*, std::size_t> members[] = {{"camera_position", offsetof(FrameRecord, camera_position)},
+                                                           {"sky_horizon", offsetof(FrameRecord, sky_horizon)},
+                                                           {"sky_zenith", offsetof(FrameRecord, sky_zenith)},
+                                                           {"image_size", offsetof(FrameRecord, image_size)},
+                                                           {"seed", offsetof(FrameRecord, seed)},
+                                                           {"light_count", offsetof(FrameRecord, light_count)}};
     for (const auto& [name, offset] : members) {
         GLuint index = GL_INVALID_INDEX;
         glGetUniformIndices(program.name(), 1, &name, &index);
@@ -218,7 +222,8 @@ TEST_F(Render, RecordsHaveTheLayoutOfTheShaders) {
     EXPECT_EQ(property("hits[0].distance", GL_TOP_LEVEL_ARRAY_STRIDE), hit_bytes);
 }
 
-/// Inside a closed sphere that emits 1 and reflects half: after k bounces the radiance is 1 + 1/2 + ... + 1/2^k everywhere.
+/// Inside a closed sphere that emits 1 and reflects half: after k bounces the radiance is 1 + 1/2 + ... + 1/2^k
+/// everywhere.
 TEST_F(Render, FurnaceRadianceIsTheGeometricSeries) {
     Scene scene;
     Node shell = make_node(NodeKind::shell);

@@ -102,11 +102,15 @@ void set_style(const Theme& theme) {
 
 ImU32 Theme::role(Role role) const {
     switch (role) {
-        case Role::primitive: return IM_COL32(110, 170, 225, 255);
-        case Role::combine: return IM_COL32(236, 178, 96, 255);
+        case Role::primitive:
+            return IM_COL32(110, 170, 225, 255);
+        case Role::combine:
+            return IM_COL32(236, 178, 96, 255);
         case Role::domain:
-        case Role::repeat: return IM_COL32(130, 196, 128, 255);
-        case Role::distance: return IM_COL32(190, 145, 220, 255);
+        case Role::repeat:
+            return IM_COL32(130, 196, 128, 255);
+        case Role::distance:
+            return IM_COL32(190, 145, 220, 255);
     }
     return text;
 }

@@ -178,8 +178,10 @@ Edits delete_selection(const Ui& ui, const Scene& scene) {
         case ObjectType::material:
             if (scene.materials.size() < 2) return {};
             return {RemoveMaterial{ui.selection.id}};
-        case ObjectType::light: return {RemoveLight{ui.selection.id}};
-        default: return {};
+        case ObjectType::light:
+            return {RemoveLight{ui.selection.id}};
+        default:
+            return {};
     }
 }
 

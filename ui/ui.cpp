@@ -7,10 +7,14 @@ namespace farfield {
 
 bool exists(const Scene& scene, ObjectRef object) {
     switch (object.type) {
-        case ObjectType::node: return find_node(scene, object.id) != nullptr;
-        case ObjectType::material: return find_material(scene, object.id) != nullptr;
-        case ObjectType::light: return find_light(scene, object.id) != nullptr;
-        default: return true;
+        case ObjectType::node:
+            return find_node(scene, object.id) != nullptr;
+        case ObjectType::material:
+            return find_material(scene, object.id) != nullptr;
+        case ObjectType::light:
+            return find_light(scene, object.id) != nullptr;
+        default:
+            return true;
     }
 }
 
@@ -77,7 +81,9 @@ void draw_icon(const Ui& ui, Role role, ImVec2 centre) {
     const ImU32 color = ui.theme.role(role);
     const float r = ui.theme.px(5.0f);
     switch (role) {
-        case Role::primitive: draw.AddCircleFilled(centre, r * 0.9f, color); break;
+        case Role::primitive:
+            draw.AddCircleFilled(centre, r * 0.9f, color);
+            break;
         case Role::combine:
             draw.AddCircle({centre.x - r * 0.45f, centre.y}, r * 0.8f, color, 0, ui.theme.px(1.4f));
             draw.AddCircle({centre.x + r * 0.45f, centre.y}, r * 0.8f, color, 0, ui.theme.px(1.4f));
@@ -88,7 +94,9 @@ void draw_icon(const Ui& ui, Role role, ImVec2 centre) {
                 for (const float y : {-0.6f, 0.6f})
                     draw.AddCircleFilled({centre.x + x * r, centre.y + y * r}, r * 0.38f, color);
             break;
-        case Role::distance: draw.AddCircle(centre, r * 0.8f, color, 0, ui.theme.px(2.0f)); break;
+        case Role::distance:
+            draw.AddCircle(centre, r * 0.8f, color, 0, ui.theme.px(2.0f));
+            break;
     }
 }
 

@@ -56,7 +56,9 @@ std::string hint_text(const Parameter& parameter) {
     std::string initial;
     const auto number = [&](int i) { return fmt::format("{:g}", parameter.initial[i]); };
     switch (parameter.type) {
-        case ParameterType::choice: initial = parameter.choices[static_cast<std::size_t>(parameter.initial.x)]; break;
+        case ParameterType::choice:
+            initial = parameter.choices[static_cast<std::size_t>(parameter.initial.x)];
+            break;
         case ParameterType::flags:
             for (int i = 0; i < 3; ++i)
                 if (parameter.initial[i] != 0.0f) initial += "xyz"[i];
@@ -254,10 +256,18 @@ std::optional<vec3> value_row(Ui& ui, const char* panel, const Parameter& parame
             if (asked_for_default()) edited = parameter.initial, changed = true;
             break;
         case ParameterType::vector:
-        case ParameterType::count: changed = vector_fields(ui, name, panel, parameter, edited, true); break;
-        case ParameterType::color: changed = color_fields(ui, name, panel, parameter, edited); break;
-        case ParameterType::flags: changed = flag_buttons(ui, name, panel, parameter, edited); break;
-        case ParameterType::choice: changed = choice_combo(ui, name, panel, parameter, edited); break;
+        case ParameterType::count:
+            changed = vector_fields(ui, name, panel, parameter, edited, true);
+            break;
+        case ParameterType::color:
+            changed = color_fields(ui, name, panel, parameter, edited);
+            break;
+        case ParameterType::flags:
+            changed = flag_buttons(ui, name, panel, parameter, edited);
+            break;
+        case ParameterType::choice:
+            changed = choice_combo(ui, name, panel, parameter, edited);
+            break;
     }
     ImGui::PopID();
     edited = clamped(parameter, edited);
