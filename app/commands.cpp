@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <chrono>
 #include <ctime>
@@ -17,11 +18,27 @@
 namespace farfield {
 namespace {
 
-bool is_exr(const std::filesystem::path& file) { return file.extension() == ".exr"; }
+bool has_extension(const std::filesystem::path& file, const char* extension) {
+    std::string text = file.extension().string();
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text == extension;
+}
+
+/// Before a long render, not after it.
+void check_outputs(const std::vector<std::filesystem::path>& outputs) {
+    for (const std::filesystem::path& file : outputs) {
+        if (!has_extension(file, ".exr") && !has_extension(file, ".png"))
+            throw std::invalid_argument(
+                fmt::format("--output: \"{}\" given, expected a name that ends in .exr or .png", file.string()));
+        const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+        if (!std::filesystem::is_directory(folder))
+            throw ImageError(fmt::format("{}: cannot be written: there is no folder {}", file.string(), folder.string()));
+    }
+}
 
 void write_outputs(Renderer& renderer, const std::vector<std::filesystem::path>& outputs, View view) {
     for (const std::filesystem::path& file : outputs) {
-        if (is_exr(file)) {
+        if (has_extension(file, ".exr")) {
             std::vector<Layer> layers{{"", renderer.read(view)}};
             for (const ViewInfo& info : views()) layers.push_back({info.key, renderer.read(info.view)});
             write_exr(file, layers);
@@ -78,6 +95,7 @@ void Overrides::apply(Settings& settings) const {
 }
 
 int run_render(const RenderOptions& options) {
+    check_outputs(options.outputs);
     Headless headless(options.scene, options.overrides, options.context);
     Renderer& renderer = *headless.renderer;
     FrameOptions frame;

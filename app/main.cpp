@@ -67,6 +67,7 @@ int run(int argc, char** argv) {
     render_command
         ->add_option("-o,--output", render.outputs,
                      "EXR (linear, every view a layer) or PNG (as displayed); may be repeated")
+        ->allow_extra_args(false)  // one for each -o, so that the scene may follow
         ->required()
         ->type_name("IMAGE");
     render_command->add_option("--frames", render.frames, "Frames to accumulate, default 16")

@@ -139,7 +139,9 @@ bool RenderThread::State::wait_for_work() {
     const bool idle = !has_work() || (finished() && !unshown);
     if (idle) wake.wait(lock, [&] { return stop || next; });
     if (stop) return false;
-    if (!next) return true;
+    // A quick picture is finished and shown before a newer request counts: a hand that moves all the time must see something.
+    const bool busy = has_work() && quick() && unshown && !gave_up;
+    if (!next || busy) return true;
     current = std::move(*next);
     next.reset();
     lock.unlock();
@@ -189,7 +191,11 @@ void RenderThread::State::update(Tier tier, Id tuned) {
     options.tuned = tuned;
     std::string problem;
     try {
-        renderer->update(*current.scene, options);
+        // The filter's width in the picture stays: a level less for each halving of the resolution.
+        Scene scene = *current.scene;
+        int& levels = scene.settings.blur_levels;
+        for (int width = options.size.x; 2 * width <= current.size.x && levels > 1; width *= 2) --levels;
+        renderer->update(scene, options);
         unshown = true;
     } catch (const std::exception& failure) {
         problem = failure.what();
