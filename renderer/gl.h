@@ -4,7 +4,6 @@
 
 #include <glad/gl.h>
 
-#include <glm/mat4x4.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -73,7 +72,6 @@ public:
     void read(void* data, std::size_t bytes, std::size_t offset = 0) const;
     void bind_storage(GLuint binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, handle_.name()); }
     void bind_uniform(GLuint binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, handle_.name()); }
-    std::size_t size() const { return size_; }
 
 private:
     std::string label_;
@@ -89,7 +87,6 @@ public:
     GLuint name() const { return handle_.name(); }
     glm::ivec2 size() const { return size_; }
     int levels() const { return levels_; }
-    GLenum format() const { return format_; }
     void bind(GLuint unit) const;
     void bind_image(GLuint unit, GLenum access, int level = 0) const;
     explicit operator bool() const { return static_cast<bool>(handle_); }
@@ -112,7 +109,6 @@ public:
     void set(const char* name, int v) const { glProgramUniform1i(handle_.name(), location(name), v); }
     void set(const char* name, unsigned v) const { glProgramUniform1ui(handle_.name(), location(name), v); }
     void set(const char* name, float v) const { glProgramUniform1f(handle_.name(), location(name), v); }
-    void set(const char* name, glm::ivec2 v) const { glProgramUniform2i(handle_.name(), location(name), v.x, v.y); }
     /// Runs at least `count` invocations in groups of 64x1 and makes their writes visible to what follows.
     void run(std::size_t count) const;
     /// The same over a grid in groups of 8x8.

@@ -61,6 +61,7 @@ struct RenderThread::State {
     bool unshown = false;                        ///< another view, other settings or a finished frame
     int shown_samples = 0;
     bool preview = false;  ///< the first picture after an edit, quick and small
+    bool prepared = false;                       ///< every program that the next edit may need is there
     bool gave_up = false;  ///< background compilation failed for this scene: do not try again
 
     void run();
@@ -162,7 +163,7 @@ glm::ivec2 RenderThread::State::quick_size() const {
 
 void RenderThread::State::take_request() {
     request_time = Clock::now();
-    gave_up = false;
+    gave_up = prepared = false;
     if (!current.scene || current.size.x <= 0 || current.size.y <= 0) return;
     const Scene& scene = *current.scene;
     preview = !renderer->keeps_samples(scene, options) && quick_size() != current.size;
@@ -211,7 +212,7 @@ void RenderThread::State::update(Tier tier, Id tuned) {
 /// When the hand rests: first the program with literals for the picture, then those that the next edit will need.
 /// True when it compiled something.
 bool RenderThread::State::compile_in_background() {
-    if (current.interacting || gave_up || Clock::now() - request_time < rest) return false;
+    if (current.interacting || gave_up || prepared || Clock::now() - request_time < rest) return false;
     const Scene& scene = *current.scene;
     const auto missing = [&](Tier tier, Id tuned) { return renderer->needs_compile(scene, tier, tuned); };
     if (!renderer->statistics().specialised) {
@@ -220,7 +221,8 @@ bool RenderThread::State::compile_in_background() {
     }
     const bool tuned = current.tuned && find_node(scene, current.tuned) && missing(Tier::specialised, current.tuned);
     const bool live = !tuned && count_nodes(scene.root) <= largest_live_scene && missing(Tier::live, 0);
-    if (!tuned && !live) return false;
+    prepared = !tuned && !live;
+    if (prepared) return false;
     update(tuned ? Tier::specialised : Tier::live, tuned ? current.tuned : 0);
     update(Tier::specialised, 0);
     return true;
