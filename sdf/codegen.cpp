@@ -1,6 +1,6 @@
 #include "sdf/codegen.h"
 
-#include "sdf/evaluate.h"
+#include "sdf/field_tree.h"
 #include "sdf/shape_library.h"
 
 #include <fmt/format.h>
@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <set>
 
 namespace farfield {
 namespace {
@@ -63,28 +64,35 @@ struct Result {
 };
 
 /// Which numbers are live, and where their nodes' values stand in the parameter block: translation, inverse rotation by
-/// columns, scale, the kind's parameters, material index.
+/// columns, scale, the kind's parameters, material index. What follows from a node's content stands apart: it is live
+/// where anything below is.
 class ParameterBlock {
 public:
-    ParameterBlock(Tier tier, Id tuned) : all_(tier == Tier::live), tuned_(tuned) {}
+    ParameterBlock(const FieldTree& tree, Tier tier, Id tuned) : all_(tier == Tier::live), tuned_(tuned) {
+        if (tree.root && tuned != 0) find_above(*tree.root);
+    }
 
-    bool is_live(const Node& n) const { return all_ || n.id == tuned_; }
+    bool is_live(const FieldNode& n) const { return all_ || n.id == tuned_; }
+    bool is_derived_live(const FieldNode& n) const { return all_ || above_tuned_.contains(n.id); }
+
     /// Index of the node's first value; both functions of the program share it.
-    std::size_t first(const Node& n, const glm::mat3& inverse_rotation, std::uint32_t material) {
+    std::size_t first(const FieldNode& n) {
         const auto [place, fresh] = first_.try_emplace(n.id, values.size());
         if (!fresh) return place->second;
-        add(n.transform.translate);
-        for (int column = 0; column < 3; ++column) add(inverse_rotation[column]);
-        values.push_back(n.transform.scale);
-        for (std::size_t i = 0; i < n.values.size(); ++i) {
-            const Parameter& parameter = info(n.kind).parameters[i];
-            const glm::vec3 v = to_code_units(parameter, n.values[i]);
-            if (parameter.components() == 1)
-                values.push_back(v.x);
-            else
-                add(v);
-        }
-        values.push_back(static_cast<float>(material));
+        add(n.translate);
+        for (int column = 0; column < 3; ++column) add(n.to_own[column]);
+        values.push_back(n.scale);
+        for (std::size_t i = 0; i < n.kind->parameters.size(); ++i) add(n.kind->parameters[i], n.values[i]);
+        values.push_back(static_cast<float>(n.material));
+        return place->second;
+    }
+    /// Index of the first derived value; the low and high corner of the region follow where the node needs them.
+    std::size_t first_derived(const FieldNode& n) {
+        const auto [place, fresh] = first_derived_.try_emplace(n.id, values.size());
+        if (!fresh) return place->second;
+        for (std::size_t i = 0; i < n.kind->derived.size(); ++i)
+            add(n.kind->derived[i], n.values[n.kind->parameters.size() + i]);
+        if (n.kind->stretch) add(n.region.low), add(n.region.high);
         return place->second;
     }
 
@@ -92,10 +100,24 @@ public:
 
 private:
     void add(glm::vec3 v) { values.insert(values.end(), {v.x, v.y, v.z}); }
+    void add(const Parameter& parameter, glm::vec3 v) {
+        if (parameter.components() == 1)
+            values.push_back(v.x);
+        else
+            add(v);
+    }
+    /// Whether the tuned node is this one or below it; remembers those for which it is.
+    bool find_above(const FieldNode& n) {
+        bool found = n.id == tuned_;
+        for (const FieldNode& child : n.children) found = find_above(child) || found;
+        if (found) above_tuned_.insert(n.id);
+        return found;
+    }
 
     bool all_;
     Id tuned_;
-    std::map<Id, std::size_t> first_;
+    std::set<Id> above_tuned_;
+    std::map<Id, std::size_t> first_, first_derived_;
 };
 
 constexpr std::size_t scale_offset = 12, parameters_offset = 13;
@@ -103,13 +125,13 @@ constexpr std::size_t scale_offset = 12, parameters_offset = 13;
 /// Writes one function body, for the distance alone or for distance and material together.
 class Writer {
 public:
-    Writer(const Scene& scene, ParameterBlock& block, bool with_material)
-        : scene_(scene), block_(block), with_material_(with_material) {}
+    Writer(const FieldTree& tree, ParameterBlock& block, bool with_material)
+        : tree_(tree), block_(block), with_material_(with_material) {}
 
     Lines write() {
         Lines body;
         std::optional<Result> result;
-        if (!is_empty(scene_.root)) result = node(scene_.root, "p", 0, body, "    ");
+        if (tree_.root) result = node(*tree_.root, "p", body, "    ");
         Lines all;
         all.append(functions_);
         all.add(with_material_ ? "float scene_surface(vec3 p, out uint material) {" : "float scene_distance(vec3 p) {");
@@ -126,76 +148,97 @@ private:
         std::string point;      ///< p in the node's own frame
         std::string factor;     ///< brings own distances to the parent's frame: "0.5 * " or nothing
         std::string arguments;  ///< the parameters as further arguments: ", a, b"
+        std::string derived;    ///< the derived values likewise
         std::string material;   ///< the material's index
+        std::string low, high;  ///< corners of the region, where the node is stretched and has an end
         bool hard;              ///< all parameters are known to be zero
     };
 
-    Numbers numbers(const Node& n, const std::string& p, std::uint32_t index) {
-        const glm::mat3 inverse = glm::transpose(rotation_matrix(n.transform));
-        return block_.is_live(n) ? live_numbers(n, p, block_.first(n, inverse, index)) : literals(n, p, inverse, index);
+    Numbers numbers(const FieldNode& n, const std::string& p) {
+        Numbers numbers = block_.is_live(n) ? live_numbers(n, p, block_.first(n)) : literals(n, p);
+        add_derived(n, numbers);
+        return numbers;
     }
 
-    static Numbers live_numbers(const Node& n, const std::string& p, std::size_t first) {
+    static std::string read(const Parameter& parameter, std::size_t at) {
+        return fmt::format(fmt::runtime(parameter.components() == 1 ? "parameter({})" : "parameter3({})"), at);
+    }
+
+    static std::string written(const Parameter& parameter, glm::vec3 v) {
+        return parameter.components() == 1 ? literal(v.x) : literal(v);
+    }
+
+    static Numbers live_numbers(const FieldNode& n, const std::string& p, std::size_t first) {
         Numbers numbers{fmt::format("place({}, {})", p, first), fmt::format("parameter({}) * ", first + scale_offset),
-                        "", "", false};
+                        "", "", "", "", "", false};
         std::size_t at = first + parameters_offset;
-        for (const Parameter& parameter : info(n.kind).parameters) {
-            const int components = parameter.components();
-            numbers.arguments +=
-                fmt::format(fmt::runtime(components == 1 ? ", parameter({})" : ", parameter3({})"), at);
-            at += static_cast<std::size_t>(components);
+        for (const Parameter& parameter : n.kind->parameters) {
+            numbers.arguments += ", " + read(parameter, at);
+            at += static_cast<std::size_t>(parameter.components());
         }
         numbers.material = fmt::format("uint(parameter({}))", at);
         return numbers;
     }
 
-    static Numbers literals(const Node& n, const std::string& p, const glm::mat3& inverse, std::uint32_t index) {
-        const Transform& t = n.transform;
-        Numbers numbers{p, "", "", fmt::format("{}u", index), true};
+    static Numbers literals(const FieldNode& n, const std::string& p) {
+        Numbers numbers{p, "", "", "", fmt::format("{}u", n.material), "", "", true};
         std::string& q = numbers.point;
-        const bool moved = t.translate != glm::vec3(0.0f), turned = inverse != glm::mat3(1.0f),
-                   scaled = t.scale != 1.0f;
-        if (moved) q = fmt::format("{} - {}", p, literal(t.translate));
+        const bool moved = n.translate != glm::vec3(0.0f), turned = n.to_own != glm::mat3(1.0f),
+                   scaled = n.scale != 1.0f;
+        if (moved) q = fmt::format("{} - {}", p, literal(n.translate));
         if (moved && (turned || scaled)) q = "(" + q + ")";
-        if (turned) q = literal(inverse) + " * " + q;
+        if (turned) q = literal(n.to_own) + " * " + q;
         if (scaled) {
-            q += " / " + literal(t.scale);
-            numbers.factor = literal(t.scale) + " * ";
+            q += " / " + literal(n.scale);
+            numbers.factor = literal(n.scale) + " * ";
         }
-        for (std::size_t i = 0; i < n.values.size(); ++i) {
-            const Parameter& parameter = info(n.kind).parameters[i];
-            const glm::vec3 v = to_code_units(parameter, n.values[i]);
-            numbers.arguments += ", " + (parameter.components() == 1 ? literal(v.x) : literal(v));
-            numbers.hard = numbers.hard && v == glm::vec3(0.0f);
+        for (std::size_t i = 0; i < n.kind->parameters.size(); ++i) {
+            numbers.arguments += ", " + written(n.kind->parameters[i], n.values[i]);
+            numbers.hard = numbers.hard && n.values[i] == glm::vec3(0.0f);
         }
         return numbers;
     }
 
-    static std::string comment(const Node& n) {
-        const KindInfo& kind = info(n.kind);
-        return n.name.empty() ? kind.key : kind.takes_children() ? fmt::format("{} ({})", n.name, kind.key) : n.name;
+    void add_derived(const FieldNode& n, Numbers& numbers) {
+        const bool live = block_.is_derived_live(n);
+        std::size_t at = live ? block_.first_derived(n) : 0;
+        for (std::size_t i = 0; i < n.kind->derived.size(); ++i) {
+            const Parameter& parameter = n.kind->derived[i];
+            const glm::vec3 v = n.values[n.kind->parameters.size() + i];
+            numbers.derived += ", " + (live ? read(parameter, at) : written(parameter, v));
+            at += static_cast<std::size_t>(parameter.components());
+        }
+        if (!n.kind->stretch) return;
+        if (live)
+            numbers.low = fmt::format("parameter3({})", at), numbers.high = fmt::format("parameter3({})", at + 3);
+        else if (n.region.is_bounded(0) || n.region.is_bounded(1) || n.region.is_bounded(2))
+            numbers.low = literal(n.region.low), numbers.high = literal(n.region.high);
     }
 
-    Result node(const Node& n, const std::string& p, std::uint32_t inherited, Lines& out, const std::string& indent) {
-        const KindInfo& kind = info(n.kind);
-        const std::uint32_t index = material_index(scene_, n.material, inherited);
-        return kind.role == Role::primitive ? primitive(n, kind, p, index) : group(n, kind, p, index, out, indent);
+    static std::string comment(const FieldNode& n) {
+        return n.name.empty()              ? n.kind->key
+               : n.kind->takes_children() ? fmt::format("{} ({})", n.name, n.kind->key)
+                                          : n.name;
     }
 
-    Result primitive(const Node& n, const KindInfo& kind, const std::string& p, std::uint32_t index) {
-        const Numbers own = numbers(n, p, index);
-        return {fmt::format("{}{}({}{})", own.factor, kind.function, own.point, own.arguments),
+    Result node(const FieldNode& n, const std::string& p, Lines& out, const std::string& indent) {
+        return n.kind->takes_children() ? group(n, p, out, indent) : primitive(n, p);
+    }
+
+    Result primitive(const FieldNode& n, const std::string& p) {
+        const Numbers own = numbers(n, p);
+        return {fmt::format("{}{}({}{})", own.factor, n.kind->function, own.point, own.arguments),
                 with_material_ ? own.material : ""};
     }
 
-    Result group(const Node& n, const KindInfo& kind, const std::string& p, std::uint32_t index, Lines& out,
-                 const std::string& indent) {
+    Result group(const FieldNode& n, const std::string& p, Lines& out, const std::string& indent) {
+        const KindInfo& kind = *n.kind;
         const int id = next_group_++;
         const std::string d = fmt::format("d{}", id);
         const Result result{d, with_material_ ? fmt::format("m{}", id) : ""};
         out.add(indent + "// " + comment(n), n.id);
 
-        const Numbers num = numbers(n, p, index);
+        const Numbers num = numbers(n, p);
         const std::string& args = num.arguments;
         std::string own = p;
         if (num.point != p) {
@@ -204,22 +247,30 @@ private:
         }
         switch (kind.role) {
             case Role::combine:
-                fold(n, kind, num, own, index, result, out, indent);
+                fold(n, num, own, result, out, indent);
                 break;
             case Role::distance:
-                fold(n, kind, num, own, index, result, out, indent);
+                fold(n, num, own, result, out, indent);
                 out.add(fmt::format("{}{} = {}({}{});", indent, d, kind.function, d, args), n.id);
                 break;
             case Role::domain: {
                 const std::string moved = fmt::format("q{}", id);
-                out.add(fmt::format("{}vec3 {} = {}({}{});", indent, moved, kind.function, own, args), n.id);
-                fold(n, kind, num, moved, index, result, out, indent);
+                std::string nearest = own;
+                if (!num.low.empty()) {
+                    nearest = fmt::format("c{}", id);
+                    out.add(fmt::format("{}vec3 {} = clamp({}, {}, {});", indent, nearest, own, num.low, num.high), n.id);
+                }
+                out.add(fmt::format("{}vec3 {} = {}({}{});", indent, moved, kind.function, nearest, args), n.id);
+                fold(n, num, moved, result, out, indent);
                 if (kind.secondary)
-                    out.add(fmt::format("{}{} = {}({}, {}{});", indent, d, kind.secondary, d, own, args), n.id);
+                    out.add(fmt::format("{}{} = {}({}, {}{}{});", indent, d, kind.secondary, d, nearest, args, num.derived),
+                            n.id);
+                if (nearest != own)
+                    out.add(fmt::format("{}{} = beyond({}, {} - {});", indent, d, d, own, nearest), n.id);
                 break;
             }
             case Role::repeat:
-                repeat(n, kind, num, own, index, result, id, out, indent);
+                repeat(n, num, own, result, id, out, indent);
                 break;
             case Role::primitive:
                 break;
@@ -229,15 +280,15 @@ private:
     }
 
     /// Declares the result and folds the children into it, one line each.
-    void fold(const Node& n, const KindInfo& kind, const Numbers& num, const std::string& p, std::uint32_t index,
-              const Result& result, Lines& out, const std::string& indent) {
+    void fold(const FieldNode& n, const Numbers& num, const std::string& p, const Result& result, Lines& out,
+              const std::string& indent) {
+        const KindInfo& kind = *n.kind;
         const std::string& d = result.distance;
         const std::string& m = result.material;
         bool first = true;
-        for (const Node& child : n.children) {
-            if (is_empty(child)) continue;
-            Result next = node(child, p, index, out, indent);
-            const std::string name = info(child.kind).takes_children() ? "" : comment(child);
+        for (const FieldNode& child : n.children) {
+            Result next = node(child, p, out, indent);
+            const std::string name = child.kind->takes_children() ? "" : comment(child);
             if (first) {
                 out.add(fmt::format("{}float {} = {};", indent, d, next.distance), child.id, name);
                 if (with_material_) out.add(fmt::format("{}uint {} = {};", indent, m, next.material), child.id);
@@ -245,7 +296,7 @@ private:
                 continue;
             }
             if (with_material_) {
-                if (!info(child.kind).takes_children()) {
+                if (!child.kind->takes_children()) {
                     const std::string e = fmt::format("e{}", next_child_++);
                     out.add(fmt::format("{}float {} = {};", indent, e, next.distance), child.id, name);
                     next.distance = e;
@@ -278,32 +329,34 @@ private:
     }
 
     /// The content becomes a function of its own, called for each cell that can hold the nearest copy.
-    void repeat(const Node& n, const KindInfo& kind, const Numbers& num, const std::string& p, std::uint32_t index,
-                const Result& result, int id, Lines& out, const std::string& indent) {
+    void repeat(const FieldNode& n, const Numbers& num, const std::string& p, const Result& result, int id, Lines& out,
+                const std::string& indent) {
+        const KindInfo& kind = *n.kind;
         const std::string& d = result.distance;
+        const bool live = block_.is_live(n) || block_.is_derived_live(n);
+        const std::string args = num.arguments + num.derived;
+        const std::string cells = live ? fmt::format("{}({})", kind.secondary, args.substr(2))
+                                       : std::to_string(kind.cells(n.values));
+        if (cells == "1") {
+            const std::string q = fmt::format("q{}", id);
+            out.add(fmt::format("{}vec3 {} = {}({}{}, 0);", indent, q, kind.function, p, args), n.id);
+            fold(n, num, q, result, out, indent);
+            return;
+        }
         const std::string content = fmt::format("distance_of_copy{}", id),
                           material_of = fmt::format("material_of_copy{}", id);
         Lines body;
-        fold(n, kind, num, "p", index, {"d", with_material_ ? "m" : ""}, body, "    ");
+        fold(n, num, "p", {"d", with_material_ ? "m" : ""}, body, "    ");
         functions_.add(with_material_ ? fmt::format("uint {}(vec3 p) {{", material_of)
                                       : fmt::format("float {}(vec3 p) {{", content),
-                       n.id, "one copy of " + display_name(n));
+                       n.id, "one copy of " + comment(n));
         functions_.append(body);
         functions_.add(with_material_ ? "    return m;" : "    return d;");
         functions_.add("}");
         functions_.add("");
 
-        std::string cells;
-        if (block_.is_live(n)) {
-            cells = fmt::format("{}({})", kind.secondary, num.arguments.substr(2));
-        } else {
-            std::vector<glm::vec3> values;
-            for (std::size_t i = 0; i < n.values.size(); ++i)
-                values.push_back(to_code_units(kind.parameters[i], n.values[i]));
-            cells = std::to_string(kind.cells(values));
-        }
         const std::string loop = fmt::format("{}for (int cell = 0; cell < {}; ++cell)", indent, cells);
-        const std::string copy = fmt::format("{}({}{}, cell)", kind.function, p, num.arguments);
+        const std::string copy = fmt::format("{}({}{}, cell)", kind.function, p, args);
         out.add(fmt::format("{}float {} = {};", indent, d, literal(empty_distance)), n.id);
         if (!with_material_) {
             out.add(fmt::format("{} {} = min({}, {}({}));", loop, d, d, content, copy), n.id);
@@ -321,7 +374,7 @@ private:
         out.add(fmt::format("{}uint {} = {}({});", indent, result.material, material_of, nearest), n.id);
     }
 
-    const Scene& scene_;
+    const FieldTree& tree_;
     ParameterBlock& block_;
     bool with_material_;
     Lines functions_;
@@ -344,9 +397,10 @@ constexpr const char* live_helpers =
 
 GeneratedScene generate(const Scene& scene, Tier tier, Id tuned) {
     GeneratedScene generated;
-    ParameterBlock block(tier, tuned);
-    const Lines distance = Writer(scene, block, false).write();
-    const Lines material = Writer(scene, block, true).write();
+    const FieldTree tree(scene);
+    ParameterBlock block(tree, tier, tuned);
+    const Lines distance = Writer(tree, block, false).write();
+    const Lines material = Writer(tree, block, true).write();
 
     Lines all;
     std::string library = used_shapes(distance.key + material.key);
@@ -363,6 +417,7 @@ GeneratedScene generate(const Scene& scene, Tier tier, Id tuned) {
     generated.key = std::move(all.key);
     generated.parameters = std::move(block.values);
     generated.line_nodes = std::move(all.nodes);
+    generated.bounds = tree.bounds();
     return generated;
 }
 

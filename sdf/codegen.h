@@ -26,6 +26,8 @@ struct GeneratedScene {
     std::vector<float> parameters;
     /// For each line of `text`, from the first, the node it belongs to; 0 where it belongs to none.
     std::vector<Id> line_nodes;
+    /// Box around all surfaces, world frame; a ray outside meets nothing.
+    Box bounds;
 };
 
 /// `tuned`: a node whose own values, transform and material come from the parameter block in the specialised tier too.

@@ -1,10 +1,12 @@
 // The one table of node kinds. File format, inspector, code generator, CPU evaluation, documentation and tests read it.
 #pragma once
 
+#include "sdf/box.h"
 #include "sdf/parameter.h"
 
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -72,12 +74,22 @@ enum class Role {
     primitive,  ///< float f(vec3 p, parameters...): signed distance, no children
     combine,    ///< float f(float a, float b, parameters...): folds the children from first to last
     domain,     ///< vec3 f(vec3 p, parameters...): moves the point before the children (a hard union) see it
-    repeat,     ///< vec3 f(vec3 p, parameters..., int cell): as domain, and the least over its cells counts
+    repeat,     ///< vec3 f(vec3 p, parameters..., derived..., int cell): as domain, and the least over its cells counts
     distance,   ///< float f(float d, parameters...): changes the distance of the children (a hard union)
 };
 
-/// Parameter values in code units (see to_code_units), in the table's order.
+/// Parameter values in code units (see to_code_units), in the table's order; the derived ones follow.
 using Values = std::span<const glm::vec3>;
+
+/// What a node's content, or a primitive, fills.
+struct Extent {
+    Box box;
+    /// Per axis: the mirror image in the plane through the origin is the same.
+    std::array<bool, 3> symmetric{};
+};
+
+/// Which children bound what a combination fills.
+enum class Gather { any, all, first };
 
 struct KindInfo {
     NodeKind kind;
@@ -86,15 +98,13 @@ struct KindInfo {
     const char* tip;
     Role role;
     /// Primitives: the exact distance on both sides. Others: exact outside, with exact children and default parameters.
-    /// Otherwise a lower bound.
+    /// Otherwise a lower bound. Every field is 1-Lipschitz where those of its children are.
     bool exact;
-    /// |f(a) - f(b)| <= lipschitz |a - b| where the children keep 1. 0: there is no such constant, and what makes the
-    /// distance safe is explained at the function.
-    float lipschitz = 1.0f;
     std::vector<Parameter> parameters;
     const char* function;  ///< in shapes.glsl or operations.glsl
     /// A second function from there, or null. combine: float f(a, b, parameters...), the fraction of b's material;
-    /// domain: float f(d, p, parameters...), a safe distance; repeat: int f(parameters...), the number of cells.
+    /// domain: float f(d, p, parameters..., derived...), a safe distance; repeat: int f(parameters..., derived...), the
+    /// number of cells.
     const char* secondary;
     /// combine: GLSL of the distances {0} and {1} to use when all parameters are known to be 0, for the distance and
     /// for whether the second one's material shows; or null: the functions serve then too.
@@ -108,12 +118,32 @@ struct KindInfo {
     float (*distance)(float d, glm::vec3 p, Values v);
     int (*cells)(Values v);
 
+    // What a node fills, conservatively, in its own frame: where its field is at most a level r >= 0.
+    /// primitive: at most 0; a higher level lies within that box grown by r.
+    Extent (*extent)(Values v);
+    /// domain and repeat: where the content `content` shows.
+    Extent (*image)(const Extent& content, Values v);
+    Gather gather;               ///< the others
+    float (*reach)(Values v);    ///< how much the level rises for the children (for each after the first), or null: 0
+
+    // What follows from parameters and content; further arguments of `secondary` and of the function of a repeat.
+    std::vector<Parameter> derived;
+    void (*derive)(const Extent& content, Values v, std::span<glm::vec3> derived);
+    /// The function `domain` stretches distances within the content's bounds by up to this, and `distance` makes up
+    /// for it; null: by 1. Such content is evaluated at the point of its bounds nearest to p, so that what lies
+    /// further out does not count: with c that point, sqrt(|p - c|² + d(c)²) is 1-Lipschitz where d is, because a
+    /// projection on a convex set is firmly nonexpansive.
+    float (*stretch)(Values v);
+
     bool takes_children() const { return role != Role::primitive; }
 };
 
 std::span<const KindInfo> node_kinds();
 const KindInfo& info(NodeKind kind);
 std::optional<NodeKind> find_kind(std::string_view key);
+
+/// beyond of operations.glsl: the distance at p from that at the point of its bounds nearest to p; away is their difference.
+float beyond(float d, glm::vec3 away);
 
 /// blend_materials of operations.glsl: two material indices and the share of the second in one code.
 std::uint32_t blend_materials(std::uint32_t a, std::uint32_t b, float share_of_b);

@@ -181,31 +181,37 @@ vec3 mirror(vec3 p, vec3 axes) {
     return mix(p, abs(p), axes);
 }
 
-// One axis of repeat: the coordinate in the frame of the nearest copy, or of the next one on p's side when next is 1.
+// One axis of repeat: the coordinate in the frame of one copy of `cells` neighbours, those with their middles nearest to p.
 // Copies stand at multiples of spacing; a positive count limits them and centres the row. No spacing or one copy: as is.
-float repeat_axis(float p, float spacing, float count, float next) {
+float repeat_axis(float p, float spacing, float count, float cells, float centre, float cell) {
     if (spacing <= 0.0f || count == 1.0f) return p;
     float last = 0.5f * (count - 1.0f);
     float offset = count > 0.0f ? last - floor(last) : 0.0f;
-    float cell = floor(p / spacing - offset + 0.5f) + offset;
-    cell += next * (p >= cell * spacing ? 1.0f : -1.0f);
-    if (count > 0.0f) cell = clamp(cell, -last, last);
-    return p - cell * spacing;
+    float along = (p - centre) / spacing;
+    float first = floor(along - offset + 0.5f) + offset;
+    first -= floor(0.5f * (along >= first ? cells - 1.0f : cells));
+    if (count > 0.0f) first = clamp(first, -last, last - (cells - 1.0f));
+    return p - (first + cell) * spacing;
 }
 
-// How many copies can hold the nearest point: two along each repeated axis, when the content stays in its cell.
-int repeat_cells(vec3 spacing, vec3 count) {
-    return (spacing.x > 0.0f && count.x != 1.0f ? 2 : 1) * (spacing.y > 0.0f && count.y != 1.0f ? 2 : 1) *
-           (spacing.z > 0.0f && count.z != 1.0f ? 2 : 1);
+// How many copies can hold the nearest point; cells of them along each axis.
+int repeat_cells(vec3 spacing, vec3 count, vec3 cells, vec3 centre) {
+    return int(cells.x * cells.y * cells.z);
 }
 
-// p in the frame of one of those copies, cell < repeat_cells(spacing, count).
-vec3 repeat(vec3 p, vec3 spacing, vec3 count, int cell) {
-    int x = spacing.x > 0.0f && count.x != 1.0f ? 2 : 1;
-    int y = spacing.y > 0.0f && count.y != 1.0f ? 2 : 1;
-    return vec3(repeat_axis(p.x, spacing.x, count.x, float(cell % x)),
-                repeat_axis(p.y, spacing.y, count.y, float((cell / x) % y)),
-                repeat_axis(p.z, spacing.z, count.z, float(cell / (x * y))));
+// p in the frame of one of those copies.
+vec3 repeat(vec3 p, vec3 spacing, vec3 count, vec3 cells, vec3 centre, int cell) {
+    int x = int(cells.x);
+    int y = int(cells.y);
+    return vec3(repeat_axis(p.x, spacing.x, count.x, cells.x, centre.x, float(cell % x)),
+                repeat_axis(p.y, spacing.y, count.y, cells.y, centre.y, float((cell / x) % y)),
+                repeat_axis(p.z, spacing.z, count.z, cells.z, centre.z, float(cell / (x * y))));
+}
+
+// The distance at p of content that was evaluated at the point of its bounds nearest to p; away leads from there to p.
+float beyond(float d, vec3 away) {
+    float outside = dot(away, away);
+    return outside > 0.0f ? sqrt(outside + max(d, 0.0f) * max(d, 0.0f)) : d;
 }
 
 // Turns the content about the y axis, rate radians for each metre of height.
@@ -215,13 +221,20 @@ vec3 twist(vec3 p, float rate) {
     return vec3(c * p.x + s * p.z, p.y, c * p.z - s * p.x);
 }
 
-// A bound of the distance to twisted content. Within radius s of the axis the twist stretches by at most
-// (k s + sqrt(k² s² + 4)) / 2 <= 1 + k s with k = |rate|. A path of length r from p stays within radius s + r; so r is safe
-// where (1 + k (s + r)) r <= |d|, and this is the largest such r.
-float twist_distance(float d, vec3 p, float rate) {
+// How much a twist stretches distances at most, within radius s of its axis.
+float twist_stretch(float rate, float s) {
+    float k = abs(rate) * s;
+    return 0.5f * (k + sqrt(k * k + 4.0f));
+}
+
+// A bound of the distance to twisted content that keeps within `reach` of the axis. On the way to it the twist stretches by
+// at most twist_stretch(reach). Nearer the axis it stretches less: within radius s by at most 1 + k s with k = |rate|, and a
+// path of length r from p stays within radius s + r; so r is safe where (1 + k (s + r)) r <= |d|, the largest such r is
+// 2 |d| / (b + sqrt(b² + 4 k |d|)) with b = 1 + k s.
+float twist_distance(float d, vec3 p, float rate, float reach) {
     float k = abs(rate);
     float b = 1.0f + k * length(vec2(p.x, p.z));
-    return 2.0f * d / (b + sqrt(b * b + 4.0f * k * abs(d)));
+    return d * max(2.0f / (b + sqrt(b * b + 4.0f * k * abs(d))), 1.0f / twist_stretch(rate, reach));
 }
 
 // ---- distance --------------------------------------------------------------------------------------------------------

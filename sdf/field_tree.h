@@ -1,0 +1,57 @@
+// The scene as code generation and evaluation see it: nodes that add a shape, numbers in code units, materials resolved,
+// and what follows from a node's content: bounds, symmetry, safe steps.
+//
+// Bounds. A node's box holds all points where its field is at most 0. Higher levels matter too: `round` shows the level
+// of its radius, a smooth union that of its fill. So bounds are taken of a level, which each operation passes down raised
+// by what it adds (KindInfo::reach); where a distance is a bound its levels reach further than the shape, and so does
+// the box. All is conservative, nothing is minimal.
+//
+// Safe steps. Every node's field is 1-Lipschitz in its own frame, so that a step as long as its value is safe and blends
+// of it stay so. Isometries, combinations and scales (which multiply the distance) keep that by themselves. What stretches
+// the domain divides by the stretch, which follows from its parameters and the bounds of its content, and at p from p too:
+// a twist is slower away from its axis than on it, and nothing beyond its content slows down (KindInfo::stretch).
+#pragma once
+
+#include "sdf/scene.h"
+
+#include <glm/mat3x3.hpp>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace farfield {
+
+/// What a scene without any shape answers, metres: far beyond everything that a ray may reach.
+inline constexpr float empty_distance = 1e9f;
+
+struct FieldNode {
+    Id id;
+    std::string name;
+    const KindInfo* kind;
+    std::vector<glm::vec3> values;  ///< in code units, the derived ones at the end
+    glm::vec3 translate;
+    glm::mat3 to_own;  ///< inverse rotation
+    float scale;
+    std::uint32_t material;  ///< index
+    Box region;              ///< what the node fills in its own frame; stretched content is evaluated within it
+    Extent extent;           ///< the same in the parent's frame
+    std::vector<FieldNode> children;
+
+    /// How much the node would shorten steps at worst: the Lipschitz constant of its field before it is made safe.
+    float stretch() const { return kind->stretch ? kind->stretch(values) : 1.0f; }
+};
+
+struct FieldTree {
+    explicit FieldTree(const Scene& scene);
+
+    /// Of the whole scene, world frame; unbounded along axes where it has no end. A point for an empty scene.
+    Box bounds() const { return root ? root->extent.box : Box{glm::vec3(0.0f), glm::vec3(0.0f)}; }
+
+    std::optional<FieldNode> root;  ///< none when the scene adds no shape
+};
+
+/// The node below `node` (itself included) with this id; null where it adds no shape.
+const FieldNode* find(const FieldNode& node, Id id);
+
+}  // namespace farfield
