@@ -109,6 +109,7 @@ public:
     void set(const char* name, int v) const { glProgramUniform1i(handle_.name(), location(name), v); }
     void set(const char* name, unsigned v) const { glProgramUniform1ui(handle_.name(), location(name), v); }
     void set(const char* name, float v) const { glProgramUniform1f(handle_.name(), location(name), v); }
+    void set(const char* name, glm::vec3 v) const { glProgramUniform3f(handle_.name(), location(name), v.x, v.y, v.z); }
     /// Runs at least `count` invocations in groups of 64x1 and makes their writes visible to what follows.
     void run(std::size_t count) const;
     /// The same over a grid in groups of 8x8.

@@ -60,9 +60,9 @@ struct RenderThread::State {
     double milliseconds_per_pixel_sample = 0.0;  ///< measured on the last frame; 0: not yet
     bool unshown = false;                        ///< another view, other settings or a finished frame
     int shown_samples = 0;
-    bool preview = false;  ///< the first picture after an edit, quick and small
-    bool prepared = false;                       ///< every program that the next edit may need is there
-    bool gave_up = false;  ///< background compilation failed for this scene: do not try again
+    bool preview = false;   ///< the first picture after an edit, quick and small
+    bool prepared = false;  ///< every program that the next edit may need is there
+    bool gave_up = false;   ///< background compilation failed for this scene: do not try again
 
     void run();
     bool wait_for_work();
@@ -140,7 +140,8 @@ bool RenderThread::State::wait_for_work() {
     const bool idle = !has_work() || (finished() && !unshown);
     if (idle) wake.wait(lock, [&] { return stop || next; });
     if (stop) return false;
-    // A quick picture is finished and shown before a newer request counts: a hand that moves all the time must see something.
+    // A quick picture is finished and shown before a newer request counts: a hand that moves all the time must see
+    // something.
     const bool busy = has_work() && quick() && unshown && !gave_up;
     if (!next || busy) return true;
     current = std::move(*next);

@@ -71,6 +71,9 @@ void TracePrograms::select(const Scene& scene, Tier tier, Id tuned) {
         cache_.splice(cache_.begin(), cache_, found);
     current_ = &cache_.front().program;
     parameters_.upload(std::span<const float>(generated.parameters));
+    // Hits lie up to an epsilon before the surface; rays that run along the bounds must not lose them to rounding.
+    bounds_ = {generated.bounds.low - 0.01f * (1.0f + glm::abs(generated.bounds.low)),
+               generated.bounds.high + 0.01f * (1.0f + glm::abs(generated.bounds.high))};
 }
 
 void TracePrograms::compile(const Scene& scene, const GeneratedScene& generated) {
@@ -103,6 +106,8 @@ void TracePrograms::trace(std::size_t count, bool surfaces, bool counting) const
     current_->set("ray_count", static_cast<unsigned>(count));
     current_->set("surface_wanted", surfaces ? 1 : 0);
     current_->set("counting", counting ? 1 : 0);
+    current_->set("scene_low", bounds_.low);
+    current_->set("scene_high", bounds_.high);
     current_->run(count);
 }
 

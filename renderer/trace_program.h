@@ -38,6 +38,7 @@ private:
     std::list<Entry> cache_;  ///< most recently used first
     const gl::Program* current_ = nullptr;
     gl::Buffer parameters_{"parameters"};
+    Box bounds_;                        ///< of the current scene
     std::set<std::size_t> structures_;  ///< hashes of the live code of every scene that was compiled
     int compiles_ = 0;
     double compile_milliseconds_ = 0.0;

@@ -169,8 +169,14 @@ private:
     }
 
     static Numbers live_numbers(const FieldNode& n, const std::string& p, std::size_t first) {
-        Numbers numbers{fmt::format("place({}, {})", p, first), fmt::format("parameter({}) * ", first + scale_offset),
-                        "", "", "", "", "", false};
+        Numbers numbers{fmt::format("place({}, {})", p, first),
+                        fmt::format("parameter({}) * ", first + scale_offset),
+                        "",
+                        "",
+                        "",
+                        "",
+                        "",
+                        false};
         std::size_t at = first + parameters_offset;
         for (const Parameter& parameter : n.kind->parameters) {
             numbers.arguments += ", " + read(parameter, at);
@@ -216,7 +222,7 @@ private:
     }
 
     static std::string comment(const FieldNode& n) {
-        return n.name.empty()              ? n.kind->key
+        return n.name.empty()             ? n.kind->key
                : n.kind->takes_children() ? fmt::format("{} ({})", n.name, n.kind->key)
                                           : n.name;
     }
@@ -234,78 +240,75 @@ private:
     Result group(const FieldNode& n, const std::string& p, Lines& out, const std::string& indent) {
         const KindInfo& kind = *n.kind;
         const int id = next_group_++;
-        const std::string d = fmt::format("d{}", id);
-        const Result result{d, with_material_ ? fmt::format("m{}", id) : ""};
         out.add(indent + "// " + comment(n), n.id);
 
         const Numbers num = numbers(n, p);
-        const std::string& args = num.arguments;
         std::string own = p;
         if (num.point != p) {
             own = fmt::format("p{}", id);
             out.add(fmt::format("{}vec3 {} = {};", indent, own, num.point), n.id);
         }
+        Result result;
         switch (kind.role) {
             case Role::combine:
-                fold(n, num, own, result, out, indent);
+                result = fold(n, num, own, id, out, indent);
                 break;
             case Role::distance:
-                fold(n, num, own, result, out, indent);
-                out.add(fmt::format("{}{} = {}({}{});", indent, d, kind.function, d, args), n.id);
+                result = fold(n, num, own, id, out, indent);
+                set(result, fmt::format("{}({}{})", kind.function, result.distance, num.arguments), n, out, indent);
                 break;
-            case Role::domain: {
-                const std::string moved = fmt::format("q{}", id);
-                std::string nearest = own;
-                if (!num.low.empty()) {
-                    nearest = fmt::format("c{}", id);
-                    out.add(fmt::format("{}vec3 {} = clamp({}, {}, {});", indent, nearest, own, num.low, num.high), n.id);
-                }
-                out.add(fmt::format("{}vec3 {} = {}({}{});", indent, moved, kind.function, nearest, args), n.id);
-                fold(n, num, moved, result, out, indent);
-                if (kind.secondary)
-                    out.add(fmt::format("{}{} = {}({}, {}{}{});", indent, d, kind.secondary, d, nearest, args, num.derived),
-                            n.id);
-                if (nearest != own)
-                    out.add(fmt::format("{}{} = beyond({}, {} - {});", indent, d, d, own, nearest), n.id);
+            case Role::domain:
+                result = domain(n, num, own, id, out, indent);
                 break;
-            }
             case Role::repeat:
-                repeat(n, num, own, result, id, out, indent);
+                result = repeat(n, num, own, id, out, indent);
                 break;
             case Role::primitive:
                 break;
         }
-        if (!num.factor.empty()) out.add(fmt::format("{}{} = {}{};", indent, d, num.factor, d), n.id);
+        if (!num.factor.empty()) set(result, num.factor + result.distance, n, out, indent);
         return result;
     }
 
-    /// Declares the result and folds the children into it, one line each.
-    void fold(const FieldNode& n, const Numbers& num, const std::string& p, const Result& result, Lines& out,
-              const std::string& indent) {
+    /// Gives the variable of the distance a new value.
+    static void set(const Result& result, const std::string& value, const FieldNode& n, Lines& out,
+                    const std::string& indent) {
+        out.add(fmt::format("{}{} = {};", indent, result.distance, value), n.id);
+    }
+
+    /// Folds the children, one line each, into variables: the first child's where it has some, or those numbered `id`.
+    /// The material needs none as long as it is the same.
+    Result fold(const FieldNode& n, const Numbers& num, const std::string& p, int id, Lines& out,
+                const std::string& indent) {
         const KindInfo& kind = *n.kind;
-        const std::string& d = result.distance;
-        const std::string& m = result.material;
-        bool first = true;
+        Result result;
         for (const FieldNode& child : n.children) {
             Result next = node(child, p, out, indent);
-            const std::string name = child.kind->takes_children() ? "" : comment(child);
-            if (first) {
-                out.add(fmt::format("{}float {} = {};", indent, d, next.distance), child.id, name);
-                if (with_material_) out.add(fmt::format("{}uint {} = {};", indent, m, next.material), child.id);
-                first = false;
+            const bool group = child.kind->takes_children();
+            const std::string name = group ? "" : comment(child);
+            if (result.distance.empty()) {
+                result = next;
+                if (group) continue;
+                result.distance = fmt::format("d{}", id);
+                out.add(fmt::format("{}float {} = {};", indent, result.distance, next.distance), child.id, name);
                 continue;
             }
-            if (with_material_) {
-                if (!child.kind->takes_children()) {
+            const bool other_material = next.material != result.material;
+            if (other_material) {
+                if (!group) {
                     const std::string e = fmt::format("e{}", next_child_++);
                     out.add(fmt::format("{}float {} = {};", indent, e, next.distance), child.id, name);
                     next.distance = e;
                 }
-                out.add(fmt::format("{}{} = {};", indent, m, blend(kind, num, result, next)), child.id);
+                const std::string m = fmt::format("m{}", id), blended = blend(kind, num, result, next);
+                out.add(fmt::format("{}{}{} = {};", indent, result.material == m ? "" : "uint ", m, blended), child.id);
+                result.material = m;
             }
-            out.add(fmt::format("{}{} = {};", indent, d, combination(kind, num, d, next.distance)), child.id,
-                    with_material_ ? "" : name);
+            out.add(fmt::format("{}{} = {};", indent, result.distance,
+                                combination(kind, num, result.distance, next.distance)),
+                    child.id, other_material ? "" : name);
         }
+        return result;
     }
 
     static std::string combination(const KindInfo& kind, const Numbers& num, const std::string& a,
@@ -328,50 +331,72 @@ private:
                            b, num.arguments);
     }
 
-    /// The content becomes a function of its own, called for each cell that can hold the nearest copy.
-    void repeat(const FieldNode& n, const Numbers& num, const std::string& p, const Result& result, int id, Lines& out,
-                const std::string& indent) {
-        const KindInfo& kind = *n.kind;
+    Result domain(const FieldNode& n, const Numbers& num, const std::string& p, int id, Lines& out,
+                  const std::string& indent) {
+        const std::string moved = fmt::format("q{}", id);
+        std::string nearest = p;
+        if (!num.low.empty()) {
+            nearest = fmt::format("c{}", id);
+            out.add(fmt::format("{}vec3 {} = clamp({}, {}, {});", indent, nearest, p, num.low, num.high), n.id);
+        }
+        out.add(fmt::format("{}vec3 {} = {}({}{});", indent, moved, n.kind->function, nearest, num.arguments), n.id);
+        const Result result = fold(n, num, moved, id, out, indent);
         const std::string& d = result.distance;
+        if (n.kind->secondary)
+            set(result, fmt::format("{}({}, {}{}{})", n.kind->secondary, d, nearest, num.arguments, num.derived), n,
+                out, indent);
+        if (nearest != p) set(result, fmt::format("beyond({}, {} - {})", d, p, nearest), n, out, indent);
+        return result;
+    }
+
+    /// The content becomes a function of its own, called for each cell that can hold the nearest copy.
+    Result repeat(const FieldNode& n, const Numbers& num, const std::string& p, int id, Lines& out,
+                  const std::string& indent) {
+        const KindInfo& kind = *n.kind;
         const bool live = block_.is_live(n) || block_.is_derived_live(n);
         const std::string args = num.arguments + num.derived;
-        const std::string cells = live ? fmt::format("{}({})", kind.secondary, args.substr(2))
-                                       : std::to_string(kind.cells(n.values));
+        const std::string cells =
+            live ? fmt::format("{}({})", kind.secondary, args.substr(2)) : std::to_string(kind.cells(n.values));
         if (cells == "1") {
             const std::string q = fmt::format("q{}", id);
             out.add(fmt::format("{}vec3 {} = {}({}{}, 0);", indent, q, kind.function, p, args), n.id);
-            fold(n, num, q, result, out, indent);
-            return;
+            return fold(n, num, q, id, out, indent);
         }
         const std::string content = fmt::format("distance_of_copy{}", id),
                           material_of = fmt::format("material_of_copy{}", id);
         Lines body;
-        fold(n, num, "p", {"d", with_material_ ? "m" : ""}, body, "    ");
-        functions_.add(with_material_ ? fmt::format("uint {}(vec3 p) {{", material_of)
-                                      : fmt::format("float {}(vec3 p) {{", content),
-                       n.id, "one copy of " + comment(n));
-        functions_.append(body);
-        functions_.add(with_material_ ? "    return m;" : "    return d;");
-        functions_.add("}");
-        functions_.add("");
+        const Result copy = fold(n, num, "p", id, body, "    ");
+        const bool materials = with_material_ && copy.material.starts_with('m');  // it varies across the copy
+        if (!with_material_ || materials) {
+            functions_.add(with_material_ ? fmt::format("uint {}(vec3 p) {{", material_of)
+                                          : fmt::format("float {}(vec3 p) {{", content),
+                           n.id, "one copy of " + comment(n));
+            functions_.append(body);
+            functions_.add(fmt::format("    return {};", with_material_ ? copy.material : copy.distance));
+            functions_.add("}");
+            functions_.add("");
+        }
 
+        const std::string d = fmt::format("d{}", id);
         const std::string loop = fmt::format("{}for (int cell = 0; cell < {}; ++cell)", indent, cells);
-        const std::string copy = fmt::format("{}({}{}, cell)", kind.function, p, args);
+        const std::string place = fmt::format("{}({}{}, cell)", kind.function, p, args);
         out.add(fmt::format("{}float {} = {};", indent, d, literal(empty_distance)), n.id);
-        if (!with_material_) {
-            out.add(fmt::format("{} {} = min({}, {}({}));", loop, d, d, content, copy), n.id);
-            return;
+        if (!materials) {
+            out.add(fmt::format("{} {} = min({}, {}({}));", loop, d, d, content, place), n.id);
+            return {d, copy.material};
         }
         const std::string nearest = fmt::format("q{}", id), q = fmt::format("r{}", id),
                           e = fmt::format("e{}", next_child_++);
         out.add(fmt::format("{}vec3 {} = {};", indent, nearest, p), n.id);
         out.add(loop + " {", n.id);
-        out.add(fmt::format("{}    vec3 {} = {};", indent, q, copy), n.id);
+        out.add(fmt::format("{}    vec3 {} = {};", indent, q, place), n.id);
         out.add(fmt::format("{}    float {} = {}({});", indent, e, content, q), n.id);
         out.add(fmt::format("{}    {} = {} < {} ? {} : {};", indent, nearest, e, d, q, nearest), n.id);
         out.add(fmt::format("{}    {} = min({}, {});", indent, d, d, e), n.id);
         out.add(indent + "}", n.id);
-        out.add(fmt::format("{}uint {} = {}({});", indent, result.material, material_of, nearest), n.id);
+        const std::string m = fmt::format("m{}", id);
+        out.add(fmt::format("{}uint {} = {}({});", indent, m, material_of, nearest), n.id);
+        return {d, m};
     }
 
     const FieldTree& tree_;

@@ -57,7 +57,9 @@ float FieldEvaluator::distance(glm::vec3 p) const {
     return !tree_.root ? empty_distance : evaluate(*tree_.root, p).distance;
 }
 
-std::uint32_t FieldEvaluator::material(glm::vec3 p) const { return !tree_.root ? 0 : evaluate(*tree_.root, p).material; }
+std::uint32_t FieldEvaluator::material(glm::vec3 p) const {
+    return !tree_.root ? 0 : evaluate(*tree_.root, p).material;
+}
 
 glm::vec3 FieldEvaluator::normal(glm::vec3 p, float h) const {
     glm::vec3 gradient;

@@ -62,8 +62,12 @@ Box level_box(const FieldNode& node, float level) {
 FieldNode prepare(const Scene& scene, const Node& node, std::uint32_t inherited) {
     const KindInfo& kind = info(node.kind);
     const Transform& t = node.transform;
-    FieldNode part{node.id, node.name, &kind, {}, t.translate, glm::transpose(rotation_matrix(t)), t.scale,
-                   material_index(scene, node.material, inherited), {}, {}, {}};
+    FieldNode part{node.id,     node.name,
+                   &kind,       {},
+                   t.translate, glm::transpose(rotation_matrix(t)),
+                   t.scale,     material_index(scene, node.material, inherited),
+                   {},          {},
+                   {}};
     for (const Node& child : node.children)
         if (!is_empty(child)) part.children.push_back(prepare(scene, child, part.material));
 

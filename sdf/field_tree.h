@@ -1,15 +1,16 @@
-// The scene as code generation and evaluation see it: nodes that add a shape, numbers in code units, materials resolved,
-// and what follows from a node's content: bounds, symmetry, safe steps.
+// The scene as code generation and evaluation see it: nodes that add a shape, numbers in code units, materials
+// resolved, and what follows from a node's content: bounds, symmetry, safe steps.
 //
 // Bounds. A node's box holds all points where its field is at most 0. Higher levels matter too: `round` shows the level
-// of its radius, a smooth union that of its fill. So bounds are taken of a level, which each operation passes down raised
-// by what it adds (KindInfo::reach); where a distance is a bound its levels reach further than the shape, and so does
-// the box. All is conservative, nothing is minimal.
+// of its radius, a smooth union that of its fill. So bounds are taken of a level, which each operation passes down
+// raised by what it adds (KindInfo::reach); where a distance is a bound its levels reach further than the shape, and so
+// does the box. All is conservative, nothing is minimal.
 //
-// Safe steps. Every node's field is 1-Lipschitz in its own frame, so that a step as long as its value is safe and blends
-// of it stay so. Isometries, combinations and scales (which multiply the distance) keep that by themselves. What stretches
-// the domain divides by the stretch, which follows from its parameters and the bounds of its content, and at p from p too:
-// a twist is slower away from its axis than on it, and nothing beyond its content slows down (KindInfo::stretch).
+// Safe steps. Every node's field is 1-Lipschitz in its own frame, so that a step as long as its value is safe and
+// blends of it stay so. Isometries, combinations and scales (which multiply the distance) keep that by themselves. What
+// stretches the domain divides by the stretch, which follows from its parameters and the bounds of its content, and at
+// p from p too: a twist is slower away from its axis than on it, and nothing beyond its content slows down
+// (KindInfo::stretch).
 #pragma once
 
 #include "sdf/scene.h"

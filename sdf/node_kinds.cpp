@@ -99,10 +99,10 @@ Extent repeat_image(const Extent& content, Values v) {
     return image;
 }
 
-// Of content that is `width` wide, each point has its nearest copy among the 1 + ceil(width / spacing) copies whose middles
-// are nearest: a copy further off is at least its half width further than one between. Content that fits into its cell and
-// is its own mirror image needs one: the planes between cells are mirrors, and what lies beyond is as far or further. Content
-// without end along the axis is taken to be the same all along it.
+// Of content that is `width` wide, each point has its nearest copy among the 1 + ceil(width / spacing) copies whose
+// middles are nearest: a copy further off is at least its half width further than one between. Content that fits into
+// its cell and is its own mirror image needs one: the planes between cells are mirrors, and what lies beyond is as far
+// or further. Content without end along the axis is taken to be the same all along it.
 void derive_repeat(const Extent& content, Values v, std::span<glm::vec3> derived) {
     constexpr float most_cells = 16.0f;  // of content that wide; copies beyond do not show
     for (int axis = 0; axis < 3; ++axis) {
@@ -191,8 +191,7 @@ KindInfo make_primitive(NodeKind kind, const char* key, const char* label, const
 KindInfo make_combination(NodeKind kind, const char* key, const char* label, const char* tip, bool exact,
                           std::vector<Parameter> parameters, const char* function,
                           float (*evaluate)(float, float, Values), const char* weight,
-                          float (*evaluate_weight)(float, float, Values), Hard hard,
-                          float (*reach)(Values) = nullptr) {
+                          float (*evaluate_weight)(float, float, Values), Hard hard, float (*reach)(Values) = nullptr) {
     KindInfo k{};
     k.kind = kind, k.key = key, k.label = label, k.tip = tip, k.role = Role::combine, k.exact = exact;
     k.parameters = std::move(parameters), k.function = function, k.combine = evaluate, k.secondary = weight;
@@ -214,116 +213,173 @@ KindInfo make_modifier(NodeKind kind, const char* key, const char* label, const 
 std::vector<KindInfo> make_table() {
     using K = NodeKind;
     std::vector<KindInfo> t;
-    t.push_back(make_primitive(K::sphere, "sphere", "Sphere", "All points within a radius", true,
-                               {length("radius", "Radius", 0.5f)}, [](Values v) { return within(glm::vec3(v[0].x)); }, FUNCTION(primitive, sphere)));
-    t.push_back(make_primitive(K::box, "box", "Box", "A box with sharp edges", true,
-                               {lengths("half_size", "Half the edge lengths", 0.5f)}, [](Values v) { return within(v[0]); }, FUNCTION(primitive, box)));
-    t.push_back(make_primitive(K::rounded_box, "rounded_box", "Rounded box", "A box with rounded edges", true,
-                               {lengths("half_size", "Half the edge lengths, rounding included", 0.5f),
-                                length("radius", "Radius of the edges, at most the smallest half size", 0.1f)},
-                               [](Values v) { return within(v[0]); }, FUNCTION(primitive, rounded_box)));
-    t.push_back(make_primitive(K::torus, "torus", "Torus", "A ring around the y axis", true,
-                               {length("major_radius", "From the axis to the middle of the tube", 0.5f),
-                                length("minor_radius", "Radius of the tube", 0.15f)},
-                               [](Values v) { return turned(v[0].x + v[1].x, -v[1].x, v[1].x); }, FUNCTION(primitive, torus)));
+    t.push_back(make_primitive(
+        K::sphere, "sphere", "Sphere", "All points within a radius", true, {length("radius", "Radius", 0.5f)},
+        [](Values v) { return within(glm::vec3(v[0].x)); }, FUNCTION(primitive, sphere)));
+    t.push_back(make_primitive(
+        K::box, "box", "Box", "A box with sharp edges", true, {lengths("half_size", "Half the edge lengths", 0.5f)},
+        [](Values v) { return within(v[0]); }, FUNCTION(primitive, box)));
+    t.push_back(make_primitive(
+        K::rounded_box, "rounded_box", "Rounded box", "A box with rounded edges", true,
+        {lengths("half_size", "Half the edge lengths, rounding included", 0.5f),
+         length("radius", "Radius of the edges, at most the smallest half size", 0.1f)},
+        [](Values v) { return within(v[0]); }, FUNCTION(primitive, rounded_box)));
+    t.push_back(make_primitive(
+        K::torus, "torus", "Torus", "A ring around the y axis", true,
+        {length("major_radius", "From the axis to the middle of the tube", 0.5f),
+         length("minor_radius", "Radius of the tube", 0.15f)},
+        [](Values v) { return turned(v[0].x + v[1].x, -v[1].x, v[1].x); }, FUNCTION(primitive, torus)));
     t.push_back(make_primitive(
         K::capsule, "capsule", "Capsule", "A cylinder along y with round ends", true,
         {length("radius", "Radius", 0.25f), length("half_height", "Half the length of the straight part", 0.25f)},
         [](Values v) { return turned(v[0].x, -v[0].x - v[1].x, v[0].x + v[1].x); }, FUNCTION(primitive, capsule)));
-    t.push_back(make_primitive(K::capped_cylinder, "capped_cylinder", "Cylinder", "A cylinder along y with flat ends",
-                               true, {length("radius", "Radius", 0.4f), length("half_height", "Half the height", 0.5f)},
-                               [](Values v) { return within({v[0].x, v[1].x, v[0].x}); }, FUNCTION(primitive, capped_cylinder)));
-    t.push_back(
-        make_primitive(K::cone, "cone", "Cone", "A cone along y, tip up, with a flat base", true,
-                       {length("radius", "Radius of the base", 0.5f), length("half_height", "Half the height", 0.5f)},
-                       [](Values v) { return turned(v[0].x, -v[1].x, v[1].x); }, FUNCTION(primitive, cone)));
-    t.push_back(make_primitive(K::plane, "plane", "Plane", "Everything at and below y = 0", true, {},
-                               [](Values) { return Extent{{glm::vec3(-unbounded), {unbounded, 0.0f, unbounded}}, xz}; }, FUNCTION(primitive, plane)));
-    t.push_back(make_primitive(K::infinite_cylinder, "infinite_cylinder", "Infinite cylinder",
-                               "A cylinder along y without ends", true, {length("radius", "Radius", 0.25f)},
-                               [](Values v) { return within({v[0].x, unbounded, v[0].x}); }, FUNCTION(primitive, infinite_cylinder)));
-    t.push_back(make_primitive(K::box_frame, "box_frame", "Box frame", "The twelve edges of a box, as bars", true,
-                               {lengths("half_size", "Half the edge lengths", 0.5f),
-                                length("thickness", "Width of the bars, at most the smallest half size", 0.1f)},
-                               [](Values v) { return within(v[0]); }, FUNCTION(primitive, box_frame)));
+    t.push_back(make_primitive(
+        K::capped_cylinder, "capped_cylinder", "Cylinder", "A cylinder along y with flat ends", true,
+        {length("radius", "Radius", 0.4f), length("half_height", "Half the height", 0.5f)},
+        [](Values v) {
+            return within({v[0].x, v[1].x, v[0].x});
+        },
+        FUNCTION(primitive, capped_cylinder)));
+    t.push_back(make_primitive(
+        K::cone, "cone", "Cone", "A cone along y, tip up, with a flat base", true,
+        {length("radius", "Radius of the base", 0.5f), length("half_height", "Half the height", 0.5f)},
+        [](Values v) { return turned(v[0].x, -v[1].x, v[1].x); }, FUNCTION(primitive, cone)));
+    t.push_back(make_primitive(
+        K::plane, "plane", "Plane", "Everything at and below y = 0", true, {},
+        [](Values) {
+            return Extent{{glm::vec3(-unbounded), {unbounded, 0.0f, unbounded}}, xz};
+        },
+        FUNCTION(primitive, plane)));
+    t.push_back(make_primitive(
+        K::infinite_cylinder, "infinite_cylinder", "Infinite cylinder", "A cylinder along y without ends", true,
+        {length("radius", "Radius", 0.25f)},
+        [](Values v) {
+            return within({v[0].x, unbounded, v[0].x});
+        },
+        FUNCTION(primitive, infinite_cylinder)));
+    t.push_back(make_primitive(
+        K::box_frame, "box_frame", "Box frame", "The twelve edges of a box, as bars", true,
+        {lengths("half_size", "Half the edge lengths", 0.5f),
+         length("thickness", "Width of the bars, at most the smallest half size", 0.1f)},
+        [](Values v) { return within(v[0]); }, FUNCTION(primitive, box_frame)));
     t.push_back(make_primitive(
         K::capped_torus, "capped_torus", "Capped torus", "A part of a ring around the y axis, with round ends", true,
         {length("major_radius", "From the axis to the middle of the tube", 0.5f),
          length("minor_radius", "Radius of the tube", 0.15f),
          angle("angle", "How much of the ring is there, half on either side of the x axis", 220.0f)},
-        [](Values v) { return within({v[0].x + v[1].x, v[1].x, v[0].x + v[1].x}, yz); }, FUNCTION(primitive, capped_torus)));
-    t.push_back(make_primitive(K::link, "link", "Link", "A link of a chain, standing along y", true,
-                               {length("major_radius", "From the middle of the bend to the middle of the tube", 0.25f),
-                                length("minor_radius", "Radius of the tube", 0.1f),
-                                length("half_height", "Half the length of the straight parts", 0.2f)},
-                               [](Values v) { return within({v[0].x + v[1].x, v[0].x + v[1].x + v[2].x, v[1].x}); }, FUNCTION(primitive, link)));
-    t.push_back(make_primitive(K::rounded_cylinder, "rounded_cylinder", "Rounded cylinder",
-                               "A cylinder along y with rounded rims", true,
-                               {length("radius", "Radius", 0.4f), length("half_height", "Half the height", 0.5f),
-                                length("edge_radius", "Radius of the rims, at most radius and half height", 0.1f)},
-                               [](Values v) { return within({v[0].x, v[1].x, v[0].x}); }, FUNCTION(primitive, rounded_cylinder)));
+        [](Values v) {
+            return within({v[0].x + v[1].x, v[1].x, v[0].x + v[1].x}, yz);
+        },
+        FUNCTION(primitive, capped_torus)));
+    t.push_back(make_primitive(
+        K::link, "link", "Link", "A link of a chain, standing along y", true,
+        {length("major_radius", "From the middle of the bend to the middle of the tube", 0.25f),
+         length("minor_radius", "Radius of the tube", 0.1f),
+         length("half_height", "Half the length of the straight parts", 0.2f)},
+        [](Values v) {
+            return within({v[0].x + v[1].x, v[0].x + v[1].x + v[2].x, v[1].x});
+        },
+        FUNCTION(primitive, link)));
+    t.push_back(make_primitive(
+        K::rounded_cylinder, "rounded_cylinder", "Rounded cylinder", "A cylinder along y with rounded rims", true,
+        {length("radius", "Radius", 0.4f), length("half_height", "Half the height", 0.5f),
+         length("edge_radius", "Radius of the rims, at most radius and half height", 0.1f)},
+        [](Values v) {
+            return within({v[0].x, v[1].x, v[0].x});
+        },
+        FUNCTION(primitive, rounded_cylinder)));
     t.push_back(make_primitive(
         K::capped_cone, "capped_cone", "Capped cone", "A cone along y without its tip", true,
         {length("lower_radius", "Radius of the lower end", 0.5f),
          length("upper_radius", "Radius of the upper end", 0.25f), length("half_height", "Half the height", 0.5f)},
         [](Values v) { return turned(glm::max(v[0].x, v[1].x), -v[2].x, v[2].x); }, FUNCTION(primitive, capped_cone)));
-    t.push_back(make_primitive(K::round_cone, "round_cone", "Round cone", "Two balls and all between them, along y",
-                               true,
-                               {length("lower_radius", "Radius of the lower ball", 0.35f),
-                                length("upper_radius", "Radius of the upper ball", 0.2f),
-                                length("half_height", "Half the distance of the balls' centres", 0.25f)},
-                               [](Values v) { return turned(glm::max(v[0].x, v[1].x), glm::min(-v[2].x - v[0].x, v[2].x - v[1].x), glm::max(v[2].x + v[1].x, v[0].x - v[2].x)); }, FUNCTION(primitive, round_cone)));
-    t.push_back(make_primitive(K::hexagonal_prism, "hexagonal_prism", "Hexagonal prism",
-                               "A regular hexagon in the xz plane, with height", true,
-                               {length("inradius", "From the axis to the middle of a side", 0.45f),
-                                length("half_height", "Half the height", 0.4f)},
-                               [](Values v) { return within({1.1547006f * v[0].x, v[1].x, v[0].x}); }, FUNCTION(primitive, hexagonal_prism)));
-    t.push_back(make_primitive(K::triangular_prism, "triangular_prism", "Triangular prism",
-                               "An equilateral triangle in the xz plane, with height", true,
-                               {length("inradius", "From the axis to the middle of a side", 0.3f),
-                                length("half_height", "Half the height", 0.4f)},
-                               [](Values v) { return within({1.7320509f * v[0].x, v[1].x, 2.0f * v[0].x}, xy); }, FUNCTION(primitive, triangular_prism)));
+    t.push_back(make_primitive(
+        K::round_cone, "round_cone", "Round cone", "Two balls and all between them, along y", true,
+        {length("lower_radius", "Radius of the lower ball", 0.35f),
+         length("upper_radius", "Radius of the upper ball", 0.2f),
+         length("half_height", "Half the distance of the balls' centres", 0.25f)},
+        [](Values v) {
+            return turned(glm::max(v[0].x, v[1].x), glm::min(-v[2].x - v[0].x, v[2].x - v[1].x),
+                          glm::max(v[2].x + v[1].x, v[0].x - v[2].x));
+        },
+        FUNCTION(primitive, round_cone)));
+    t.push_back(make_primitive(
+        K::hexagonal_prism, "hexagonal_prism", "Hexagonal prism", "A regular hexagon in the xz plane, with height",
+        true,
+        {length("inradius", "From the axis to the middle of a side", 0.45f),
+         length("half_height", "Half the height", 0.4f)},
+        [](Values v) {
+            return within({1.1547006f * v[0].x, v[1].x, v[0].x});
+        },
+        FUNCTION(primitive, hexagonal_prism)));
+    t.push_back(make_primitive(
+        K::triangular_prism, "triangular_prism", "Triangular prism",
+        "An equilateral triangle in the xz plane, with height", true,
+        {length("inradius", "From the axis to the middle of a side", 0.3f),
+         length("half_height", "Half the height", 0.4f)},
+        [](Values v) {
+            return within({1.7320509f * v[0].x, v[1].x, 2.0f * v[0].x}, xy);
+        },
+        FUNCTION(primitive, triangular_prism)));
     t.push_back(make_primitive(
         K::solid_angle, "solid_angle", "Solid angle", "The part of a ball within a cone, tip down", true,
         {length("radius", "Radius of the ball", 0.7f), angle("angle", "Opening angle of the cone", 80.0f)},
-        [](Values v) { return turned(v[0].x, glm::min(v[0].x * std::cos(0.5f * v[1].x), 0.0f), v[0].x); }, FUNCTION(primitive, solid_angle)));
-    t.push_back(make_primitive(K::cut_sphere, "cut_sphere", "Cut sphere", "The part of a ball above a plane", true,
-                               {length("radius", "Radius of the ball", 0.5f),
-                                length("cut_height", "Height of the cut above the centre", -0.1f, -largest_value)},
-                               [](Values v) { return cut_ball(v[0].x, v[1].x, true); }, FUNCTION(primitive, cut_sphere)));
-    t.push_back(make_primitive(K::cut_hollow_sphere, "cut_hollow_sphere", "Cut hollow sphere",
-                               "A hollow ball, open above a plane, with a round rim", true,
-                               {length("radius", "Radius at the middle of the wall", 0.5f),
-                                length("cut_height", "Height of the cut above the centre", 0.1f, -largest_value),
-                                length("thickness", "Thickness of the wall", 0.08f)},
-                               [](Values v) { return Extent{cut_ball(v[0].x, v[1].x, false).box.grown(0.5f * v[2].x), xz}; }, FUNCTION(primitive, cut_hollow_sphere)));
-    t.push_back(make_primitive(K::death_star, "death_star", "Death star", "A ball with a round hollow on top", true,
-                               {length("radius", "Radius of the ball", 0.5f),
-                                length("carving_radius", "Radius of the ball that is carved away", 0.35f),
-                                length("offset", "Height of the carved ball's centre", 0.6f)},
-                               [](Values v) { return turned(v[0].x, -v[0].x, v[0].x); }, FUNCTION(primitive, death_star)));
-    t.push_back(make_primitive(K::vesica, "vesica", "Vesica", "A lens-shaped spindle along y with pointed ends", true,
-                               {length("radius", "Radius in the middle, at most half height", 0.25f),
-                                length("half_height", "From the middle to a tip", 0.5f)},
-                               [](Values v) { return within({glm::min(v[0].x, v[1].x), v[1].x, glm::min(v[0].x, v[1].x)}); }, FUNCTION(primitive, vesica)));
+        [](Values v) { return turned(v[0].x, glm::min(v[0].x * std::cos(0.5f * v[1].x), 0.0f), v[0].x); },
+        FUNCTION(primitive, solid_angle)));
+    t.push_back(make_primitive(
+        K::cut_sphere, "cut_sphere", "Cut sphere", "The part of a ball above a plane", true,
+        {length("radius", "Radius of the ball", 0.5f),
+         length("cut_height", "Height of the cut above the centre", -0.1f, -largest_value)},
+        [](Values v) { return cut_ball(v[0].x, v[1].x, true); }, FUNCTION(primitive, cut_sphere)));
+    t.push_back(make_primitive(
+        K::cut_hollow_sphere, "cut_hollow_sphere", "Cut hollow sphere",
+        "A hollow ball, open above a plane, with a round rim", true,
+        {length("radius", "Radius at the middle of the wall", 0.5f),
+         length("cut_height", "Height of the cut above the centre", 0.1f, -largest_value),
+         length("thickness", "Thickness of the wall", 0.08f)},
+        [](Values v) {
+            return Extent{cut_ball(v[0].x, v[1].x, false).box.grown(0.5f * v[2].x), xz};
+        },
+        FUNCTION(primitive, cut_hollow_sphere)));
+    t.push_back(make_primitive(
+        K::death_star, "death_star", "Death star", "A ball with a round hollow on top", true,
+        {length("radius", "Radius of the ball", 0.5f),
+         length("carving_radius", "Radius of the ball that is carved away", 0.35f),
+         length("offset", "Height of the carved ball's centre", 0.6f)},
+        [](Values v) { return turned(v[0].x, -v[0].x, v[0].x); }, FUNCTION(primitive, death_star)));
+    t.push_back(make_primitive(
+        K::vesica, "vesica", "Vesica", "A lens-shaped spindle along y with pointed ends", true,
+        {length("radius", "Radius in the middle, at most half height", 0.25f),
+         length("half_height", "From the middle to a tip", 0.5f)},
+        [](Values v) {
+            return within({glm::min(v[0].x, v[1].x), v[1].x, glm::min(v[0].x, v[1].x)});
+        },
+        FUNCTION(primitive, vesica)));
     t.push_back(make_primitive(
         K::rhombus, "rhombus", "Rhombus", "A rhombus in the xz plane, with height", true,
         {length("half_length", "Half the diagonal along x", 0.5f),
          length("half_width", "Half the diagonal along z", 0.3f), length("half_height", "Half the height", 0.15f)},
-        [](Values v) { return within({v[0].x, v[2].x, v[1].x}); }, FUNCTION(primitive, rhombus)));
-    t.push_back(make_primitive(K::octahedron, "octahedron", "Octahedron", "A regular octahedron, corners on the axes",
-                               true, {length("radius", "From the centre to a corner", 0.6f)},
-                               [](Values v) { return within(glm::vec3(v[0].x)); }, FUNCTION(primitive, octahedron)));
-    t.push_back(make_primitive(K::pyramid, "pyramid", "Pyramid", "A square base and a tip above it", true,
-                               {length("half_width", "Half the edge length of the base", 0.5f),
-                                length("half_height", "Half the height", 0.4f)},
-                               [](Values v) { return turned(v[0].x, -v[1].x, v[1].x); }, FUNCTION(primitive, pyramid)));
-    t.push_back(make_primitive(K::ellipsoid, "ellipsoid", "Ellipsoid", "A sphere stretched along the axes", false,
-                               {lengths("radii", "Half the lengths along x, y and z", 0.5f, 1e-3f)},
-                               [](Values v) { return within(v[0]); }, FUNCTION(primitive, ellipsoid)));
+        [](Values v) {
+            return within({v[0].x, v[2].x, v[1].x});
+        },
+        FUNCTION(primitive, rhombus)));
+    t.push_back(make_primitive(
+        K::octahedron, "octahedron", "Octahedron", "A regular octahedron, corners on the axes", true,
+        {length("radius", "From the centre to a corner", 0.6f)}, [](Values v) { return within(glm::vec3(v[0].x)); },
+        FUNCTION(primitive, octahedron)));
+    t.push_back(make_primitive(
+        K::pyramid, "pyramid", "Pyramid", "A square base and a tip above it", true,
+        {length("half_width", "Half the edge length of the base", 0.5f),
+         length("half_height", "Half the height", 0.4f)},
+        [](Values v) { return turned(v[0].x, -v[1].x, v[1].x); }, FUNCTION(primitive, pyramid)));
+    t.push_back(make_primitive(
+        K::ellipsoid, "ellipsoid", "Ellipsoid", "A sphere stretched along the axes", false,
+        {lengths("radii", "Half the lengths along x, y and z", 0.5f, 1e-3f)}, [](Values v) { return within(v[0]); },
+        FUNCTION(primitive, ellipsoid)));
 
     t.push_back(make_combination(K::union_, "union", "Union", "All of the children together", true, {blend},
-                                 FUNCTION(combine, smooth_union), FUNCTION(combine, union_weight), hard_union, quarter_radius));
+                                 FUNCTION(combine, smooth_union), FUNCTION(combine, union_weight), hard_union,
+                                 quarter_radius));
     t.push_back(make_combination(K::intersect, "intersect", "Intersect", "What all children have in common", false,
                                  {blend}, FUNCTION(combine, smooth_intersect), FUNCTION(combine, intersect_weight),
                                  hard_intersect));
@@ -331,10 +387,11 @@ std::vector<KindInfo> make_table() {
                                  {blend}, FUNCTION(combine, smooth_subtract), FUNCTION(combine, subtract_weight),
                                  hard_subtract));
     t.push_back(make_combination(K::xor_, "xor", "Exclusive or", "What belongs to an odd number of children", false, {},
-                                 FUNCTION(combine, exclusive_or), FUNCTION(combine, exclusive_or_weight), never_hard(Gather::any)));
-    t.push_back(make_combination(K::chamfer_union, "chamfer_union", "Chamfer union",
-                                 "All of the children together, bevelled where they meet", false, {profile},
-                                 FUNCTION(combine, chamfer_union), FUNCTION(combine, union_weight), hard_union, whole_radius));
+                                 FUNCTION(combine, exclusive_or), FUNCTION(combine, exclusive_or_weight),
+                                 never_hard(Gather::any)));
+    t.push_back(make_combination(
+        K::chamfer_union, "chamfer_union", "Chamfer union", "All of the children together, bevelled where they meet",
+        false, {profile}, FUNCTION(combine, chamfer_union), FUNCTION(combine, union_weight), hard_union, whole_radius));
     t.push_back(make_combination(K::chamfer_intersect, "chamfer_intersect", "Chamfer intersect",
                                  "What all children have in common, bevelled where they meet", false, {profile},
                                  FUNCTION(combine, chamfer_intersect), FUNCTION(combine, intersect_weight),
@@ -345,7 +402,8 @@ std::vector<KindInfo> make_table() {
                                  hard_subtract));
     t.push_back(make_combination(K::round_union, "round_union", "Round union",
                                  "All of the children together, rounded by a circle where they meet", false, {profile},
-                                 FUNCTION(combine, round_union), FUNCTION(combine, union_weight), hard_union, whole_radius));
+                                 FUNCTION(combine, round_union), FUNCTION(combine, union_weight), hard_union,
+                                 whole_radius));
     t.push_back(make_combination(K::round_intersect, "round_intersect", "Round intersect",
                                  "What all children have in common, rounded by a circle where they meet", false,
                                  {profile}, FUNCTION(combine, round_intersect), FUNCTION(combine, intersect_weight),
@@ -356,7 +414,8 @@ std::vector<KindInfo> make_table() {
                                  hard_subtract));
     t.push_back(make_combination(K::stairs_union, "stairs_union", "Stairs union",
                                  "All of the children together, with steps where they meet", false, {profile, steps},
-                                 FUNCTION(combine, stairs_union), FUNCTION(combine, stepped_union_weight), hard_union, whole_radius));
+                                 FUNCTION(combine, stairs_union), FUNCTION(combine, stepped_union_weight), hard_union,
+                                 whole_radius));
     t.push_back(make_combination(K::stairs_intersect, "stairs_intersect", "Stairs intersect",
                                  "What all children have in common, with steps where they meet", false,
                                  {profile, steps}, FUNCTION(combine, stairs_intersect),
@@ -380,18 +439,18 @@ std::vector<KindInfo> make_table() {
     t.push_back(make_combination(K::pipe, "pipe", "Pipe", "A tube along the curve in which the surfaces meet", false,
                                  {length("radius", "Radius of the tube", 0.05f)}, FUNCTION(combine, pipe),
                                  FUNCTION(combine, pipe_weight), never_hard(Gather::all), whole_radius));
-    t.push_back(make_combination(K::engrave, "engrave", "Engrave",
-                                 "The first child with a V-shaped notch where the others' surfaces meet it", false,
-                                 {length("depth", "Depth of the notch, and half its width", 0.05f)},
-                                 FUNCTION(combine, engrave), FUNCTION(combine, engrave_weight), never_hard(Gather::first)));
-    t.push_back(make_combination(K::groove, "groove", "Groove",
-                                 "The first child with a channel where the others' surfaces meet it", false,
-                                 {length("depth", "Depth", 0.05f), length("width", "Width", 0.1f)},
-                                 FUNCTION(combine, groove), FUNCTION(combine, groove_weight), never_hard(Gather::first)));
-    t.push_back(make_combination(K::tongue, "tongue", "Tongue",
-                                 "The first child with a ridge where the others' surfaces meet it", false,
-                                 {length("height", "Height", 0.05f), length("width", "Width", 0.1f)},
-                                 FUNCTION(combine, tongue), FUNCTION(combine, tongue_weight), never_hard(Gather::first), whole_radius));
+    t.push_back(make_combination(
+        K::engrave, "engrave", "Engrave", "The first child with a V-shaped notch where the others' surfaces meet it",
+        false, {length("depth", "Depth of the notch, and half its width", 0.05f)}, FUNCTION(combine, engrave),
+        FUNCTION(combine, engrave_weight), never_hard(Gather::first)));
+    t.push_back(make_combination(
+        K::groove, "groove", "Groove", "The first child with a channel where the others' surfaces meet it", false,
+        {length("depth", "Depth", 0.05f), length("width", "Width", 0.1f)}, FUNCTION(combine, groove),
+        FUNCTION(combine, groove_weight), never_hard(Gather::first)));
+    t.push_back(make_combination(
+        K::tongue, "tongue", "Tongue", "The first child with a ridge where the others' surfaces meet it", false,
+        {length("height", "Height", 0.05f), length("width", "Width", 0.1f)}, FUNCTION(combine, tongue),
+        FUNCTION(combine, tongue_weight), never_hard(Gather::first), whole_radius));
 
     KindInfo mirror = make_modifier(
         K::mirror, "mirror", "Mirror", "Shows the content of the positive side on both sides", Role::domain, true,

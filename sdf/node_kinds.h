@@ -123,8 +123,8 @@ struct KindInfo {
     Extent (*extent)(Values v);
     /// domain and repeat: where the content `content` shows.
     Extent (*image)(const Extent& content, Values v);
-    Gather gather;               ///< the others
-    float (*reach)(Values v);    ///< how much the level rises for the children (for each after the first), or null: 0
+    Gather gather;             ///< the others
+    float (*reach)(Values v);  ///< how much the level rises for the children (for each after the first), or null: 0
 
     // What follows from parameters and content; further arguments of `secondary` and of the function of a repeat.
     std::vector<Parameter> derived;
@@ -142,7 +142,8 @@ std::span<const KindInfo> node_kinds();
 const KindInfo& info(NodeKind kind);
 std::optional<NodeKind> find_kind(std::string_view key);
 
-/// beyond of operations.glsl: the distance at p from that at the point of its bounds nearest to p; away is their difference.
+/// beyond of operations.glsl: the distance at p from that at the point of its bounds nearest to p; away is their
+/// difference.
 float beyond(float d, glm::vec3 away);
 
 /// blend_materials of operations.glsl: two material indices and the share of the second in one code.

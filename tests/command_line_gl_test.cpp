@@ -97,8 +97,8 @@ TEST(CommandLine, WrongUseAndWrongInputExitWithTwo) {
           "render " + scene("cornell") + output + " --method magic",
           "render " + scene("cornell") + output + " --view nothing",
           "render " + scene("cornell") + output + " --frames 0", "render " + broken + output, "glsl " + broken,
-          "check " + broken, "bench " + broken, "render " + scene("cornell") + " -o a.unknown", std::string("--nonsense"),
-          "render '" + (folder / "missing.json").string() + "'" + output}) {
+          "check " + broken, "bench " + broken, "render " + scene("cornell") + " -o a.unknown",
+          std::string("--nonsense"), "render '" + (folder / "missing.json").string() + "'" + output}) {
         const Outcome outcome = farfield_command(arguments);
         EXPECT_EQ(outcome.status, 2) << arguments << "\n" << outcome.output;
         EXPECT_FALSE(outcome.output.empty()) << arguments;

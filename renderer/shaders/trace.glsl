@@ -11,6 +11,8 @@ layout(std430, binding = 12) buffer Counters { uint counted_rays; uint counted_s
 uniform uint ray_count;
 uniform int surface_wanted;  // 1: also normal and material; 0: the distance is enough (shadow, occlusion)
 uniform int counting;        // 1: add to the counters
+uniform vec3 scene_low;      // all surfaces lie within this box
+uniform vec3 scene_high;
 
 const int step_limit = 256;
 const float beta = 0.5;
@@ -24,14 +26,22 @@ void main() {
     Ray ray = rays[i];
 
     float spacing = 2.5e-7 * max(abs(ray.origin.x), max(abs(ray.origin.y), abs(ray.origin.z)));
-    float t = 0.0;         // nothing lies before this
+    // Where the ray is within the scene's bounds.
+    vec3 inverse_direction = 1.0 / mix(ray.direction, vec3(1e-20), lessThan(abs(ray.direction), vec3(1e-20)));
+    vec3 to_low = (scene_low - ray.origin) * inverse_direction;
+    vec3 to_high = (scene_high - ray.origin) * inverse_direction;
+    vec3 enter = min(to_low, to_high);
+    vec3 leave = max(to_low, to_high);
+    float reach = min(ray.reach, min(leave.x, min(leave.y, leave.z)));
+
+    float t = max(0.0, max(enter.x, max(enter.y, enter.z)));  // nothing lies before this
     float radius = 0.0;    // distance there
     float stride = 0.0;    // step being tried
     float slope = -1.0;    // of the distance along the ray, smoothed
     float epsilon = 0.0;
     bool found = false;
     int steps = 0;
-    while (t < ray.reach && !found && steps < step_limit) {
+    while (t < reach && !found && steps < step_limit) {
         float next = t + stride;
         float d = scene_distance(ray.origin + next * ray.direction);
         ++steps;
@@ -47,7 +57,7 @@ void main() {
         }
         stride = 2.0 * max(radius, 0.0) / (1.0 - slope);
     }
-    bool exhausted = steps >= step_limit && !found && t < ray.reach;
+    bool exhausted = steps >= step_limit && !found && t < reach;
     // Out of steps: a ray that grazes a surface has met it, any other has met nothing. Where it stands now decides; the
     // nearest miss of the whole way would draw fringes around what a ray to the horizon passes.
     found = found || (exhausted && radius < near_enough * epsilon);
