@@ -39,7 +39,7 @@ Extent own_extent(const FieldNode& node, float level) {
         return extent;
     }
     if (!kind.image) return content_extent(node, level);
-    if (!kind.stretch) return kind.image(content_extent(node, level), node.values);
+    if (!kind.confined) return kind.image(content_extent(node, level), node.values);
     Extent extent = kind.image(content_extent(node, 0.0f), node.values);
     extent.box = extent.box.grown(level);
     return extent;

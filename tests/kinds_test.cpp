@@ -91,13 +91,10 @@ protected:
     const KindInfo& kind() const { return info(GetParam()); }
 
     /// Calls check(scene, spread) for the defaults, `count` sets of parameters near them and as many wide ones.
-    /// Modifiers promise their distance for content that they suit, so their parameters stay near.
     template <class Check>
     void for_scenes(int count, Check check) {
-        const bool wide = kind().role == Role::primitive || kind().role == Role::combine;
         for (int i = 0; i < 2 * count + 1 && !HasFailure(); ++i) {
             const Spread spread = i == 0 ? Spread::none : i <= count ? Spread::near : Spread::wide;
-            if (spread == Spread::wide && !wide) continue;
             const Scene scene = scene_of(kind(), spread, random_);
             SCOPED_TRACE(parameters_text(scene));
             check(scene, spread);
@@ -222,6 +219,42 @@ TEST_P(EveryKind, ExactOnesAgreeWithTheNearestSurface) {
             const glm::vec3 p = random_point(random_, extent);
             if (operation && field.distance(p) < 0.05f) continue;  // inside they are bounds; 0.05: the neighbours too
             expect_exact(field, p, random_);
+        }
+    });
+}
+
+TEST_P(EveryKind, LiesWithinItsBounds) {
+    for_scenes(8, [&](const Scene& scene, Spread) {
+        // The level of a radius around it too, which is what a smooth union or `round` above would show.
+        for (const float level : {0.0f, 0.2f}) {
+            Scene grown = scene;
+            Node round = make_node(NodeKind::round);
+            round.values[0].x = level;
+            round.children = grown.root.children;
+            grown.root.children = {round};
+            const FieldEvaluator field(grown);
+            const Box box = field.tree().bounds();
+            for (int i = 0; i < 20'000; ++i) {
+                const glm::vec3 p = random_point(random_, 2.0f * extent);
+                if (field.distance(p) > 0.0f) continue;
+                ASSERT_TRUE(glm::clamp(p, box.low, box.high) == p)
+                    << text(p) << " is outside of " << text(box.low) << " to " << text(box.high);
+            }
+        }
+    });
+}
+
+TEST_P(EveryKind, IsItsMirrorImageWhereItSaysSo) {
+    for_scenes(4, [&](const Scene& scene, Spread) {
+        const FieldEvaluator field(scene);
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!field.tree().root->extent.symmetric[axis]) continue;
+            for (int i = 0; i < 1000; ++i) {
+                const glm::vec3 p = random_point(random_, extent);
+                glm::vec3 q = p;
+                q[axis] = -p[axis];
+                ASSERT_NEAR(field.distance(p), field.distance(q), rounding) << "at " << text(p) << " along " << axis;
+            }
         }
     });
 }
