@@ -243,10 +243,9 @@ std::vector<KindInfo> make_table() {
                                {length("half_width", "Half the edge length of the base", 0.5f),
                                 length("half_height", "Half the height", 0.4f)},
                                FUNCTION(primitive, pyramid)));
-    t.push_back(make_primitive(K::ellipsoid, "ellipsoid", "Ellipsoid", "A sphere stretched along the axes", false,
+    t.push_back(make_primitive(K::ellipsoid, "ellipsoid", "Ellipsoid", "A sphere stretched along the axes", true,
                                {lengths("radii", "Half the lengths along x, y and z", 0.5f, 1e-3f)},
                                FUNCTION(primitive, ellipsoid)));
-    t.back().lipschitz = 0.0f;
 
     t.push_back(make_combination(K::union_, "union", "Union", "All of the children together", true, {blend},
                                  FUNCTION(combine, smooth_union), FUNCTION(combine, union_weight), hard_union));
