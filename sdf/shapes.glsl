@@ -59,14 +59,29 @@ float plane(vec3 p) {
     return p.y;
 }
 
-// A bound. k0 = |p / radii| is convex and 1 on the surface, so (k0 - 1) / |grad k0| never exceeds the distance outside;
-// inside, where that form overestimates up to the longest radius, 1 / min(radii) bounds the gradient instead.
+// The surface point nearest to p is radii² p / (t + radii²), componentwise, with the one t > -shortest² that puts it on the
+// surface (Eberly, "Distance from a point to an ellipse, an ellipsoid, or a hyperellipsoid", 2013). With u = t / shortest² + 1
+// that is |a / (u + k)| = 1. 1 / |a / (u + k)| is concave in u, so Newton's method for it rises to the root from any u below,
+// such as that where the axes up to one length alone, all taken as that long, make 1. From near bodies it takes 2 or 3 steps,
+// from the focal set of one that is 1000 times longer than thick 10. A convex body's distance is the largest n.p - h(n) over
+// unit n, h(n) = |radii n| here: an error of the normal n counts by its square, and what is left of it is on the safe side
+// outside. Coordinates below 1e-6 radii count as that, so that inside, too, n is defined where symmetry leaves it open.
 float ellipsoid(vec3 p, vec3 radii) {
-    vec3 q = p / radii;
-    float k0 = length(q);
-    float k1 = length(q / radii);
     float shortest = min(radii.x, min(radii.y, radii.z));
-    return k0 < 1.0f ? (k0 - 1.0f) * shortest : k0 * (k0 - 1.0f) / max(k1, 1e-12f);
+    vec3 r = radii / shortest;
+    vec3 k = (r - 1.0f) * (r + 1.0f);
+    vec3 a = min(r * r * max(abs(p) / radii, vec3(1e-6f)), vec3(1e18f));
+    float u = max(sqrt(dot(a * a, step(k, vec3(k.x)))) - k.x,
+                  max(sqrt(dot(a * a, step(k, vec3(k.y)))) - k.y, sqrt(dot(a * a, step(k, vec3(k.z)))) - k.z));
+    for (int i = 0; i < 12; ++i) {
+        vec3 w = a / (u + k);
+        float square = dot(w, w);
+        float excess = sqrt(square) - 1.0f;
+        if (excess < 1e-6f) break;
+        u += excess * square / dot(w * w, 1.0f / (u + k));
+    }
+    vec3 n = normalize(a / ((u + k) * r));
+    return dot(n, abs(p)) - length(radii * n);
 }
 
 // Everything within radius of the y axis.
