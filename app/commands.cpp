@@ -5,6 +5,7 @@
 #include "sdf/codegen.h"
 #include "sdf/fields.h"
 #include "sdf/scene_file.h"
+#include "sdf/scene_schema.h"
 
 #include <fmt/format.h>
 
@@ -32,7 +33,8 @@ void check_outputs(const std::vector<std::filesystem::path>& outputs) {
                 fmt::format("--output: \"{}\" given, expected a name that ends in .exr or .png", file.string()));
         const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
         if (!std::filesystem::is_directory(folder))
-            throw ImageError(fmt::format("{}: cannot be written: there is no folder {}", file.string(), folder.string()));
+            throw ImageError(
+                fmt::format("{}: cannot be written: there is no folder {}", file.string(), folder.string()));
     }
 }
 
@@ -119,6 +121,11 @@ int run_render(const RenderOptions& options) {
 
 int run_glsl(const GlslOptions& options) {
     fmt::print("{}", generate(load_scene(options.scene), options.live ? Tier::live : Tier::specialised).text);
+    return 0;
+}
+
+int run_schema() {
+    fmt::print("{}", scene_schema());
     return 0;
 }
 

@@ -98,6 +98,8 @@ int run(int argc, char** argv) {
     CLI::App* check_command = app.add_subcommand("check", "Validate a scene file");
     check_command->add_option("SCENE", check_scene, "Scene file")->required();
 
+    CLI::App* schema_command = app.add_subcommand("schema", "Print the JSON Schema of scene files");
+
     BenchOptions bench;
     CLI::App* bench_command = app.add_subcommand("bench", "Time per pass, evaluations per ray, compile time");
     bench_command->add_option("SCENE", bench.scene, "Scene file")->required();
@@ -117,6 +119,7 @@ int run(int argc, char** argv) {
         if (*render_command) return run_render(render);
         if (*glsl_command) return run_glsl(glsl);
         if (*check_command) return run_check(check_scene);
+        if (*schema_command) return run_schema();
         if (*bench_command) return run_bench(bench);
         return run_editor(editor);
     } catch (const SceneFileError& error) {

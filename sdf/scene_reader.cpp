@@ -64,8 +64,13 @@ public:
         const Json::Object& object = object_in(document, top, "a scene");
         check_version(document, top);
         check_keys(object, top,
-                   {format::version_key, format::camera, format::settings, format::sky, format::materials,
-                    format::lights, format::root});
+                   {format::schema, format::version_key, format::camera, format::settings, format::sky,
+                    format::materials, format::lights, format::root});
+        if (const Json* schema = document.find(format::schema)) {
+            const auto* text = schema->as<std::string>();
+            if (!text) unexpected({&top, format::schema}, *schema, "a text, where the format's JSON Schema is");
+            scene_.schema = *text;
+        }
         read_section(document, top, format::camera, scene_.camera);
         read_section(document, top, format::settings, scene_.settings);
         read_section(document, top, format::sky, scene_.sky);
@@ -149,6 +154,7 @@ private:
         }
         const double* number = json.as<double>();
         if (!number) unexpected(path, json, parameter.components() == 1 ? expectation(parameter) : "a number");
+        if (parameter.is_whole() && *number != std::floor(*number)) unexpected(path, json, expectation(parameter));
         const float component = narrowed(*number);
         // The same value in all places asks about one component alone, so that the message names its line.
         if (std::string why = why_refused(parameter, glm::vec3(component)); !why.empty())

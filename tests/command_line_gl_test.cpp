@@ -37,7 +37,7 @@ std::string scene(const char* name) { return fmt::format("'{}/{}.json'", FARFIEL
 TEST(CommandLine, HelpNamesEveryCommandAndNeedsNoDisplay) {
     const Outcome help = farfield_command("--help");
     EXPECT_EQ(help.status, 0);
-    for (const char* word : {"render", "glsl", "check", "bench", "SCENE", "scenes/README.md"})
+    for (const char* word : {"render", "glsl", "check", "schema", "bench", "SCENE", "scenes/README.md"})
         EXPECT_NE(help.output.find(word), std::string::npos) << word;
     const Outcome render = farfield_command("render --help");
     EXPECT_EQ(render.status, 0);
@@ -74,6 +74,12 @@ TEST(CommandLine, GeneratedCodeIsPrinted) {
     const Outcome glsl = farfield_command("glsl " + scene("cornell"));
     EXPECT_EQ(glsl.status, 0);
     EXPECT_NE(glsl.output.find("float scene_distance(vec3 p) {"), std::string::npos);
+}
+
+TEST(CommandLine, TheSchemaIsPrinted) {
+    const Outcome schema = farfield_command("schema");
+    EXPECT_EQ(schema.status, 0);
+    EXPECT_EQ(schema.output, read_text(std::filesystem::path(FARFIELD_SCENES) / "schema.json"));
 }
 
 TEST(CommandLine, BenchReportsPassesAndEvaluations) {

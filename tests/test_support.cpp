@@ -30,7 +30,8 @@ void randomise(T& object, std::mt19937& random) {
 std::vector<fs::path> bundled_scenes() {
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(FARFIELD_SCENES))
-        if (entry.path().extension() == ".json") files.push_back(entry.path());
+        if (entry.path().extension() == ".json" && entry.path().filename() != "schema.json")
+            files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;
 }
