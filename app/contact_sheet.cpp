@@ -20,9 +20,24 @@ using Kinds = std::vector<const KindInfo*>;
 
 struct Group {
     Role role;
-    const char* heading;
     Kinds kinds;
 };
+
+const char* heading(Role role) {
+    switch (role) {
+        case Role::primitive:
+            return "Primitives";
+        case Role::combine:
+            return "Combinations";
+        case Role::domain:
+            return "Modifiers of space";
+        case Role::repeat:
+            return "Repetitions";
+        case Role::distance:
+            return "Modifiers of distance";
+    }
+    return "";
+}
 
 /// The kinds asked for, by role, each in the table's order.
 std::vector<Group> grouped(const std::vector<std::string>& only) {
@@ -32,17 +47,13 @@ std::vector<Group> grouped(const std::vector<std::string>& only) {
         if (!find_kind(key))
             throw std::invalid_argument(fmt::format("--only: \"{}\" given, {}", key, expected_one_of(known, key)));
 
-    std::vector<Group> groups{{Role::primitive, "Primitives", {}},
-                              {Role::combine, "Combinations", {}},
-                              {Role::domain, "Modifiers of space", {}},
-                              {Role::repeat, "Repetitions", {}},
-                              {Role::distance, "Modifiers of distance", {}}};
-    for (const KindInfo& kind : node_kinds())
-        if (only.empty() || std::find(only.begin(), only.end(), kind.key) != only.end())
-            std::find_if(groups.begin(), groups.end(), [&](const Group& group) {
-                return group.role == kind.role;
-            })->kinds.push_back(&kind);
-    std::erase_if(groups, [](const Group& group) { return group.kinds.empty(); });
+    std::vector<Group> groups;
+    for (const KindInfo& kind : node_kinds()) {
+        if (!only.empty() && std::find(only.begin(), only.end(), kind.key) == only.end()) continue;
+        auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.role == kind.role; });
+        if (group == groups.end()) group = groups.insert(groups.end(), {kind.role, {}});
+        group->kinds.push_back(&kind);
+    }
     return groups;
 }
 
@@ -61,14 +72,14 @@ public:
     }
 
     enum class Font { regular, bold };
-    /// Centred on x between `at` and `at.x + width`, or to the left where there is no width, the baseline at at.y;
-    /// smaller where it is too long.
-    void write(const char* text, glm::ivec2 at, int width, int height, Font font) {
+    enum class Align { left, centre };
+    /// In a field that begins at `at`, the text's baseline; smaller than `height` where it is wider than that.
+    void write(const char* text, glm::ivec2 at, int width, int height, Font font, Align align) {
         const char* file = font_file(font);
         constexpr std::array<float, 3> colour{0.87f, 0.89f, 0.91f};
-        OIIO::ROI roi = OIIO::ImageBufAlgo::text_size(text, height, file);
-        if (width > 0 && roi.defined() && roi.width() > width) height = std::max(1, height * width / roi.width());
-        const bool centred = width > 0;
+        const OIIO::ROI size = OIIO::ImageBufAlgo::text_size(text, height, file);
+        if (size.defined() && size.width() > width) height = std::max(1, height * width / size.width());
+        const bool centred = align == Align::centre;
         if (!OIIO::ImageBufAlgo::render_text(
                 buffer_, centred ? at.x + width / 2 : at.x, at.y, text, height, file, colour,
                 centred ? OIIO::ImageBufAlgo::TextAlignX::Center : OIIO::ImageBufAlgo::TextAlignX::Left))
@@ -98,6 +109,7 @@ public:
     struct Heading {
         const char* text;
         glm::ivec2 at;
+        int width;
     };
     struct Tile {
         const KindInfo* kind;
@@ -115,7 +127,8 @@ public:
             if (column > 0 && !(one_row && fits)) column = 0;
             if (column == 0) top_.push_back(after_last_row(true));
             one_row = fits;
-            headings.push_back({group.heading, at(column, -px(12))});
+            headings.push_back({heading(group.role), at(column, -px(12)),
+                                std::min(count, options.columns) * (tile.x + px(10)) - px(20)});
             for (const KindInfo* kind : group.kinds) {
                 if (column == options.columns) {
                     column = 0;
@@ -159,7 +172,7 @@ int run_contact_sheet(const ContactSheetOptions& options) {
     const float aspect = static_cast<float>(options.tile.x) / static_cast<float>(options.tile.y);
     Progress progress("rendering", static_cast<int>(layout.tiles.size()) * options.frames);
     for (const Layout::Heading& heading : layout.headings)
-        sheet.write(heading.text, heading.at, 0, layout.px(20), Sheet::Font::bold);
+        sheet.write(heading.text, heading.at, heading.width, layout.px(20), Sheet::Font::bold, Sheet::Align::left);
     for (const Layout::Tile& tile : layout.tiles) {
         renderer.update(sample_scene(*tile.kind, aspect), frame);
         for (int i = 0; i < options.frames; ++i) {
@@ -173,7 +186,7 @@ int run_contact_sheet(const ContactSheetOptions& options) {
         }
         sheet.place(renderer.display_pixels(), options.tile, tile.at);
         sheet.write(tile.kind->label, tile.at + glm::ivec2(0, options.tile.y + layout.px(20)), options.tile.x,
-                    layout.px(15), Sheet::Font::regular);
+                    layout.px(15), Sheet::Font::regular, Sheet::Align::centre);
     }
     sheet.save(options.output);
     return 0;

@@ -112,7 +112,7 @@ bool is_hollow(const FieldEvaluator& field, Role role) {
     return solid(ball_centre + rise) && !solid(ball_centre - rise) && solid(vec3(0.38f, 0.0f, 0.38f));
 }
 
-struct Extent {
+struct Occupied {
     vec3 low{std::numeric_limits<float>::max()};
     vec3 high{-std::numeric_limits<float>::max()};
     std::vector<vec3> cells;  ///< their centres
@@ -120,7 +120,7 @@ struct Extent {
 
 /// The cells of a grid that the surface or inside may touch. Divided by its slope, a lower bound of the distance comes
 /// nearer to the truth.
-Extent occupied(const FieldEvaluator& field, vec3 low, vec3 high, int cells) {
+Occupied occupied(const FieldEvaluator& field, vec3 low, vec3 high, int cells) {
     const vec3 cell = (high - low) / static_cast<float>(cells);
     const float reach = 0.5f * glm::length(cell);
     const auto slope = [&](vec3 p) {
@@ -132,7 +132,7 @@ Extent occupied(const FieldEvaluator& field, vec3 low, vec3 high, int cells) {
         }
         return glm::clamp(glm::length(gradient), 0.01f, 1.0f);
     };
-    Extent found;
+    Occupied found;
     for (int x = 0; x < cells; ++x)
         for (int y = 0; y < cells; ++y)
             for (int z = 0; z < cells; ++z) {
@@ -147,7 +147,7 @@ Extent occupied(const FieldEvaluator& field, vec3 low, vec3 high, int cells) {
 }
 
 /// The height of the lowest point: a plane rises from below by the least distance above it until it touches.
-float lowest(const FieldEvaluator& field, const Extent& extent) {
+float lowest(const FieldEvaluator& field, const Occupied& extent) {
     constexpr int steps = 64;
     float height = extent.low.y - 0.01f;
     for (int i = 0; i < 8; ++i) {
@@ -165,7 +165,7 @@ float lowest(const FieldEvaluator& field, const Extent& extent) {
 /// Looks from `direction` with all cells in the middle of the picture, as near as possible. A cell p is in the picture
 /// where |p.xy - eye.xy| <= slope (eye.z - p.z), in the camera's axes with z towards it: two planes for each side, of
 /// which the outermost count.
-void look_at(Camera& camera, const Extent& extent, vec3 direction, float aspect) {
+void look_at(Camera& camera, const Occupied& extent, vec3 direction, float aspect) {
     const vec3 backward = glm::normalize(direction);
     const vec3 right = glm::normalize(glm::cross(vec3(0.0f, 1.0f, 0.0f), backward));
     const glm::mat3 axes(right, glm::cross(backward, right), backward);
@@ -198,7 +198,7 @@ Scene sample_scene(const KindInfo& kind, float aspect) {
     constexpr float reach = 3.0f;
     constexpr float shown = 0.8f;
     const FieldEvaluator field(scene);
-    Extent extent = occupied(field, vec3(-reach), vec3(reach), 40);
+    Occupied extent = occupied(field, vec3(-reach), vec3(reach), 40);
     const auto within = [](vec3 v) { return glm::all(glm::lessThan(glm::abs(v), vec3(reach - 0.01f))); };
     const bool ends = within(extent.low) && within(extent.high);
     if (!ends) extent = {glm::max(extent.low, vec3(-shown)), glm::min(extent.high, vec3(shown)), {}};
