@@ -5,6 +5,7 @@
 #include "sdf/codegen.h"
 #include "sdf/fields.h"
 #include "sdf/scene_file.h"
+#include "sdf/scene_schema.h"
 
 #include <fmt/format.h>
 
@@ -18,22 +19,10 @@
 namespace farfield {
 namespace {
 
-bool has_extension(const std::filesystem::path& file, const char* extension) {
+bool has_extension(const std::filesystem::path& file, std::string_view extension) {
     std::string text = file.extension().string();
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
     return text == extension;
-}
-
-/// Before a long render, not after it.
-void check_outputs(const std::vector<std::filesystem::path>& outputs) {
-    for (const std::filesystem::path& file : outputs) {
-        if (!has_extension(file, ".exr") && !has_extension(file, ".png"))
-            throw std::invalid_argument(
-                fmt::format("--output: \"{}\" given, expected a name that ends in .exr or .png", file.string()));
-        const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-        if (!std::filesystem::is_directory(folder))
-            throw ImageError(fmt::format("{}: cannot be written: there is no folder {}", file.string(), folder.string()));
-    }
 }
 
 void write_outputs(Renderer& renderer, const std::vector<std::filesystem::path>& outputs, View view) {
@@ -72,6 +61,15 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
+void check_output(const std::filesystem::path& file, std::initializer_list<std::string_view> extensions) {
+    if (std::none_of(extensions.begin(), extensions.end(), [&](auto e) { return has_extension(file, e); }))
+        throw std::invalid_argument(fmt::format("--output: \"{}\" given, expected a name that ends in {}",
+                                                file.string(), fmt::join(extensions, " or ")));
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (!std::filesystem::is_directory(folder))
+        throw ImageError(fmt::format("{}: cannot be written: there is no folder {}", file.string(), folder.string()));
+}
+
 void Overrides::apply(Settings& settings) const {
     for (const auto& [key, text] : values) {
         for (const Field<Settings>& field : fields<Settings>()) {
@@ -95,7 +93,7 @@ void Overrides::apply(Settings& settings) const {
 }
 
 int run_render(const RenderOptions& options) {
-    check_outputs(options.outputs);
+    for (const std::filesystem::path& file : options.outputs) check_output(file, {".exr", ".png"});
     Headless headless(options.scene, options.overrides, options.context);
     Renderer& renderer = *headless.renderer;
     FrameOptions frame;
@@ -119,6 +117,11 @@ int run_render(const RenderOptions& options) {
 
 int run_glsl(const GlslOptions& options) {
     fmt::print("{}", generate(load_scene(options.scene), options.live ? Tier::live : Tier::specialised).text);
+    return 0;
+}
+
+int run_schema() {
+    fmt::print("{}", scene_schema());
     return 0;
 }
 

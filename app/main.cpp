@@ -1,5 +1,6 @@
 // The command line: `farfield [SCENE]` opens the editor, the subcommands work without a window.
 #include "app/commands.h"
+#include "app/contact_sheet.h"
 #include "app/editor.h"
 #include "renderer/gl.h"
 #include "renderer/image.h"
@@ -25,17 +26,22 @@ glm::ivec2 parse_size(const std::string& text) {
     return size;
 }
 
-/// Options shared by commands that render. One option for each setting comes from the settings table.
-void add_common(CLI::App& command, glm::ivec2& size, ContextKind& context, Overrides& overrides) {
+/// Options of every command that renders.
+void add_device(CLI::App& command, const char* pixels, glm::ivec2& size, ContextKind& context) {
     command
         .add_option_function<std::string>(
             "--size", [&](const std::string& text) { size = parse_size(text); },
-            fmt::format("Pixels, default {}x{}", size.x, size.y))
+            fmt::format("{}, default {}x{}", pixels, size.x, size.y))
         ->type_name("WxH");
     command.add_option("--context", context, "Where OpenGL comes from")
         ->transform(CLI::CheckedTransformer(std::map<std::string, ContextKind>{
             {"auto", ContextKind::automatic}, {"egl", ContextKind::egl}, {"osmesa", ContextKind::osmesa}}))
         ->type_name("auto|egl|osmesa");
+}
+
+/// The same for commands that render a scene. One option for each setting comes from the settings table.
+void add_common(CLI::App& command, glm::ivec2& size, ContextKind& context, Overrides& overrides) {
+    add_device(command, "Pixels", size, context);
     for (const Field<Settings>& field : fields<Settings>()) {
         const Parameter& p = field.parameter;
         std::string option = fmt::format("--{}", p.key);
@@ -98,12 +104,24 @@ int run(int argc, char** argv) {
     CLI::App* check_command = app.add_subcommand("check", "Validate a scene file");
     check_command->add_option("SCENE", check_scene, "Scene file")->required();
 
+    CLI::App* schema_command = app.add_subcommand("schema", "Print the JSON Schema of scene files");
+
     BenchOptions bench;
     CLI::App* bench_command = app.add_subcommand("bench", "Time per pass, evaluations per ray, compile time");
     bench_command->add_option("SCENE", bench.scene, "Scene file")->required();
     bench_command->add_option("--frames", bench.frames, "Frames to measure, default 5")->check(CLI::Range(1, 10'000));
     bench_command->add_flag("--live", bench.live, "Also the tier that reads its numbers from a parameter block");
     add_common(*bench_command, bench.size, bench.context, bench.overrides);
+
+    ContactSheetOptions sheet;
+    CLI::App* sheet_command = app.add_subcommand("contact-sheet", "Render every kind of node into one picture");
+    sheet_command->add_option("-o,--output", sheet.output, "PNG or JPEG")->required()->type_name("IMAGE");
+    add_device(*sheet_command, "Pixels for each kind", sheet.tile, sheet.context);
+    sheet_command->add_option("--columns", sheet.columns, "Kinds in a row, default 8")->check(CLI::Range(1, 100));
+    sheet_command->add_option("--only", sheet.only, "These kinds alone, by their keys in scene files")
+        ->type_name("KEY");
+    sheet_command->add_option("--frames", sheet.frames, "Frames to accumulate, default 16")
+        ->check(CLI::Range(1, 1'000'000));
 
     try {
         app.parse(argc, argv);
@@ -117,6 +135,8 @@ int run(int argc, char** argv) {
         if (*render_command) return run_render(render);
         if (*glsl_command) return run_glsl(glsl);
         if (*check_command) return run_check(check_scene);
+        if (*schema_command) return run_schema();
+        if (*sheet_command) return run_contact_sheet(sheet);
         if (*bench_command) return run_bench(bench);
         return run_editor(editor);
     } catch (const SceneFileError& error) {

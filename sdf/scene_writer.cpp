@@ -28,6 +28,7 @@ class Writer {
 public:
     explicit Writer(const Scene& scene) : scene_(scene) {
         begin({}, '{');
+        if (!scene.schema.empty()) line(format::schema, text_of(scene.schema));
         line(format::version_key, fmt::format("{}", format::version));
         section(format::camera, scene.camera);
         section(format::settings, scene.settings);

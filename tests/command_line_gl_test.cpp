@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <set>
 
 namespace farfield {
 namespace {
@@ -37,7 +38,8 @@ std::string scene(const char* name) { return fmt::format("'{}/{}.json'", FARFIEL
 TEST(CommandLine, HelpNamesEveryCommandAndNeedsNoDisplay) {
     const Outcome help = farfield_command("--help");
     EXPECT_EQ(help.status, 0);
-    for (const char* word : {"render", "glsl", "check", "bench", "SCENE", "scenes/README.md"})
+    for (const char* word :
+         {"render", "glsl", "check", "schema", "contact-sheet", "bench", "SCENE", "scenes/README.md"})
         EXPECT_NE(help.output.find(word), std::string::npos) << word;
     const Outcome render = farfield_command("render --help");
     EXPECT_EQ(render.status, 0);
@@ -76,12 +78,56 @@ TEST(CommandLine, GeneratedCodeIsPrinted) {
     EXPECT_NE(glsl.output.find("float scene_distance(vec3 p) {"), std::string::npos);
 }
 
+TEST(CommandLine, TheSchemaIsPrinted) {
+    const Outcome schema = farfield_command("schema");
+    EXPECT_EQ(schema.status, 0);
+    EXPECT_EQ(schema.output, read_text(std::filesystem::path(FARFIELD_SCENES) / "schema.json"));
+}
+
 TEST(CommandLine, BenchReportsPassesAndEvaluations) {
     const Outcome bench = farfield_command("bench " + scene("cornell") + " --size 32x32 --frames 1 --live");
     EXPECT_EQ(bench.status, 0) << bench.output;
     for (const char* word :
          {"compiled in", "frames/s", "camera rays", "far light", "evaluations per ray", "live program"})
         EXPECT_NE(bench.output.find(word), std::string::npos) << word;
+}
+
+TEST(CommandLine, AContactSheetShowsTheKindsAskedFor) {
+    const TemporaryFolder folder;
+    const auto sheet = [&](const char* name, const char* arguments) {
+        return farfield_command(
+            fmt::format("contact-sheet -o '{}' --size 40x24 --frames 1 {}", (folder / name).string(), arguments));
+    };
+    // Distinct pixels: a tile of nothing but background, text or black has few.
+    const auto colours = [](const Image& image) {
+        std::set<std::array<float, 3>> found;
+        for (std::size_t i = 0; i < image.pixels.size(); i += 3)
+            found.insert({image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]});
+        return found.size();
+    };
+    for (const char* name : {"one.png", "again.png"}) {
+        const Outcome one = sheet(name, "--only torus");
+        ASSERT_EQ(one.status, 0) << one.output;
+        EXPECT_EQ(one.output, "");
+    }
+    EXPECT_EQ(read_text(folder / "one.png"), read_text(folder / "again.png"));
+    ASSERT_EQ(sheet("two.png", "--only torus subtract").status, 0);
+    ASSERT_EQ(sheet("below.png", "--columns 1 --only torus subtract").status, 0);
+    const Image one = read_image(folder / "one.png"), two = read_image(folder / "two.png"),
+                below = read_image(folder / "below.png");
+    EXPECT_GT(colours(one), 100u);
+    EXPECT_GE(two.size.x, one.size.x + 40);
+    EXPECT_EQ(two.size.y, one.size.y);
+    EXPECT_EQ(below.size.x, one.size.x);
+    EXPECT_GE(below.size.y, one.size.y + 24);
+
+    const Outcome wrong = sheet("wrong.png", "--only torus speere");
+    EXPECT_EQ(wrong.status, 2);
+    EXPECT_NE(wrong.output.find("\"speere\" given"), std::string::npos) << wrong.output;
+    EXPECT_NE(wrong.output.find("(perhaps sphere)"), std::string::npos) << wrong.output;
+    EXPECT_EQ(sheet("wrong.exr", "--only torus").status, 2);
+    EXPECT_EQ(sheet("no/folder.png", "--only torus").status, 1);
+    EXPECT_FALSE(std::filesystem::exists(folder / "wrong.png"));
 }
 
 TEST(CommandLine, WrongUseAndWrongInputExitWithTwo) {

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <map>
 #include <random>
@@ -33,73 +32,6 @@ struct Small {
     }
     ObjectRef node(Id id) const { return {ObjectType::node, id}; }
 };
-
-void visit(const Node& node, const std::function<void(const Node&)>& f) {
-    f(node);
-    for (const Node& child : node.children) visit(child, f);
-}
-
-std::vector<Id> all_nodes(const Scene& scene) {
-    std::vector<Id> ids;
-    visit(scene.root, [&](const Node& node) { ids.push_back(node.id); });
-    return ids;
-}
-
-/// Any edit, sensible or not: ids that exist and ids that do not, names that are free and names that are taken.
-Edit random_edit(const Scene& scene, std::mt19937& random) {
-    const auto pick = [&](std::size_t count) { return static_cast<int>(random() % count); };
-    const auto any_node = [&] {
-        const std::vector<Id> ids = all_nodes(scene);
-        return pick(20) == 0 ? Id{99999} : ids[pick(ids.size())];
-    };
-    const auto any_kind = [&] { return node_kinds()[pick(node_kinds().size())].kind; };
-    const auto any_material = [&] { return pick(5) ? scene.materials[pick(scene.materials.size())].id : Id(pick(2)); };
-    const auto any_light = [&] {
-        return scene.lights.empty() ? Id{77777} : scene.lights[pick(scene.lights.size())].id;
-    };
-    const std::string name = std::string(1, static_cast<char>('a' + pick(6)));
-    switch (pick(12)) {
-        case 0: {
-            const ObjectRef objects[] = {{ObjectType::node, any_node()},
-                                         {ObjectType::material, any_material()},
-                                         {ObjectType::light, any_light()},
-                                         {ObjectType::sky},
-                                         {ObjectType::camera},
-                                         {ObjectType::settings}};
-            const ObjectRef object = objects[pick(6)];
-            const std::vector<Parameter> list = parameters(scene, object);
-            if (list.empty()) return SetValue{object, "radius", glm::vec3(1.0f)};
-            const Parameter& parameter = list[pick(list.size())];
-            return SetValue{object, parameter.key, pick(5) ? random_value(parameter, random) : glm::vec3(-1e9f)};
-        }
-        case 1:
-            return SetName{{pick(2) ? ObjectType::node : ObjectType::material, pick(2) ? any_node() : any_material()},
-                           name};
-        case 2:
-            return SetKind{any_node(), any_kind()};
-        case 3:
-            return SetLightKind{any_light(), pick(2) ? LightKind::point : LightKind::directional};
-        case 4:
-            return SetMaterial{any_node(), any_material()};
-        case 5: {
-            Node node = make_node(any_kind());
-            node.name = pick(2) ? name : "";
-            return InsertNode{any_node(), pick(6) - 1, node};
-        }
-        case 6:
-            return RemoveNode{any_node()};
-        case 7:
-            return MoveNode{any_node(), any_node(), pick(6) - 1};
-        case 8:
-            return AddMaterial{{0, name}};
-        case 9:
-            return RemoveMaterial{any_material()};
-        case 10:
-            return AddLight{{0, name}};
-        default:
-            return RemoveLight{any_light()};
-    }
-}
 
 TEST(Edit, SetsAValue) {
     Small s;
@@ -269,7 +201,7 @@ TEST(History, UndoAllRestoresTheStartAndRedoAllTheEnd) {
 TEST(History, IdsAreNeverReused) {
     History history;
     std::set<Id> seen;
-    for (const Id id : all_nodes(history.scene())) seen.insert(id);
+    for (const Id id : all_ids(history.scene().root)) seen.insert(id);
     for (int i = 0; i < 20; ++i) {
         const Id id = history.apply(InsertNode{history.scene().root.id, -1, make_node(NodeKind::sphere)});
         EXPECT_TRUE(seen.insert(id).second) << "id " << id;
