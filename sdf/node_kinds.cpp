@@ -91,8 +91,8 @@ Parameter angle(const char* key, const char* tip, float initial) {
 /// Parameters of the profiled combinations.
 const Parameter blend = length("radius", "Width of the smooth blend; 0 gives a hard edge", 0.0f);
 const Parameter profile = length("radius", "How far from the edge the profile begins", 0.1f);
-Parameter whole(const char* key, const char* tip, float initial) {
-    return {key, tip, ParameterType::integer, Unit::none, 1.0f, 1000.0f, glm::vec3(initial, 0.0f, 0.0f)};
+Parameter whole(const char* key, const char* tip, float initial, float minimum = 1.0f) {
+    return {key, tip, ParameterType::integer, Unit::none, minimum, 1000.0f, glm::vec3(initial, 0.0f, 0.0f)};
 }
 const Parameter steps = whole("steps", "Number of steps", 3.0f);
 const Parameter columns = whole("columns", "Number of columns", 3.0f);
@@ -112,6 +112,13 @@ KindInfo make_primitive(NodeKind kind, const char* key, const char* label, const
     KindInfo k{};
     k.kind = kind, k.key = key, k.label = label, k.tip = tip, k.role = Role::primitive, k.exact = exact;
     k.parameters = std::move(parameters), k.function = function, k.primitive = evaluate;
+    return k;
+}
+
+KindInfo make_profile(NodeKind kind, const char* key, const char* label, const char* tip,
+                      std::vector<Parameter> parameters, const char* function, float (*evaluate)(glm::vec3, Values)) {
+    KindInfo k = make_primitive(kind, key, label, tip, true, std::move(parameters), function, evaluate);
+    k.flat = true;
     return k;
 }
 
@@ -246,6 +253,56 @@ std::vector<KindInfo> make_table() {
     t.push_back(make_primitive(K::ellipsoid, "ellipsoid", "Ellipsoid", "A sphere stretched along the axes", true,
                                {lengths("radii", "Half the lengths along x, y and z", 0.5f, 1e-3f)},
                                FUNCTION(primitive, ellipsoid)));
+    t.push_back(make_profile(K::circle, "circle", "Circle", "A profile: all points within a radius of the z axis",
+                             {length("radius", "Radius", 0.5f)}, FUNCTION(primitive, circle)));
+    t.push_back(make_profile(
+        K::rectangle, "rectangle", "Rectangle", "A profile: a rectangle, without end along z",
+        {length("half_width", "Half the length along x", 0.5f), length("half_height", "Half the length along y", 0.3f)},
+        FUNCTION(primitive, rectangle)));
+    t.push_back(make_profile(K::rounded_rectangle, "rounded_rectangle", "Rounded rectangle",
+                             "A profile: a rectangle with rounded corners, without end along z",
+                             {length("half_width", "Half the length along x, rounding included", 0.5f),
+                              length("half_height", "Half the length along y, rounding included", 0.3f),
+                              length("radius", "Radius of the corners, at most the smaller half size", 0.1f)},
+                             FUNCTION(primitive, rounded_rectangle)));
+    t.push_back(make_profile(
+        K::polygon, "polygon", "Polygon", "A profile: a regular polygon with a corner on +y, without end along z",
+        {whole("sides", "Number of sides", 5.0f, 3.0f), length("radius", "From the centre to a corner", 0.5f)},
+        FUNCTION(primitive, polygon)));
+    t.push_back(make_profile(
+        K::star, "star", "Star", "A profile: a star with a point on +y, without end along z",
+        {whole("points", "Number of points", 5.0f, 2.0f), length("outer_radius", "From the centre to a point", 0.5f),
+         length("inner_radius", "From the centre to a corner between two points", 0.22f)},
+        FUNCTION(primitive, star)));
+    t.push_back(
+        make_profile(K::ring, "ring", "Ring", "A profile: a ring or an arc of it, without end along z",
+                     {length("radius", "From the centre to the middle of the band", 0.4f),
+                      length("thickness", "Width of the band, at most twice the radius", 0.2f),
+                      angle("angle", "How much of the ring is there, half on either side of the y axis", 360.0f)},
+                     FUNCTION(primitive, ring)));
+    t.push_back(make_primitive(K::menger_sponge, "menger_sponge", "Menger sponge",
+                               "A cube with square holes through it, and through what is left", false,
+                               {length("half_size", "Half the edge length", 0.5f),
+                                {"iterations",
+                                 "How often holes are made",
+                                 ParameterType::integer,
+                                 Unit::none,
+                                 0.0f,
+                                 6.0f,
+                                 {3.0f, 0.0f, 0.0f}}},
+                               FUNCTION(primitive, menger_sponge)));
+    t.push_back(make_primitive(K::mandelbulb, "mandelbulb", "Mandelbulb",
+                               "What stays bounded when points are raised to a power again and again", false,
+                               {length("radius", "Radius of the ball that holds it", 0.6f),
+                                {"power", "Power", ParameterType::integer, Unit::none, 2.0f, 16.0f, {8.0f, 0.0f, 0.0f}},
+                                {"iterations",
+                                 "How often; more show finer detail",
+                                 ParameterType::integer,
+                                 Unit::none,
+                                 1.0f,
+                                 16.0f,
+                                 {6.0f, 0.0f, 0.0f}}},
+                               FUNCTION(primitive, mandelbulb)));
 
     t.push_back(make_combination(K::union_, "union", "Union", "All of the children together", true, {blend},
                                  FUNCTION(combine, smooth_union), FUNCTION(combine, union_weight), hard_union));
@@ -362,6 +419,24 @@ std::vector<KindInfo> make_table() {
     twist.lipschitz = 0.0f;
     twist.distance = safe_distance<shapes::twist_distance>;
     t.push_back(twist);
+
+    KindInfo extrude = make_modifier(K::extrude, "extrude", "Extrude",
+                                     "A body with the content's cross-section at z = 0, along z", Role::domain, true,
+                                     {length("half_height", "Half the length along z", 0.25f),
+                                      length("radius", "Radius of the edges at the ends, at most half height", 0.0f)},
+                                     "extrude");
+    extrude.domain = domain<shapes::extrude>;
+    extrude.secondary = "extrude_distance";
+    extrude.distance = safe_distance<shapes::extrude_distance>;
+    extrude.flat = true;
+    t.push_back(extrude);
+
+    KindInfo revolve = make_modifier(
+        K::revolve, "revolve", "Revolve", "Turns the content's cross-section at z = 0 about the y axis", Role::domain,
+        true, {length("offset", "How far the content is moved out along x before", 0.5f)}, "revolve");
+    revolve.domain = domain<shapes::revolve>;
+    revolve.flat = true;
+    t.push_back(revolve);
 
     KindInfo shell = make_modifier(K::shell, "shell", "Shell", "Hollows the content to a skin", Role::distance, true,
                                    {length("thickness", "Thickness of the skin, half on either side", 0.05f)}, "shell");

@@ -40,6 +40,14 @@ enum class NodeKind {
     octahedron,
     pyramid,
     ellipsoid,
+    circle,
+    rectangle,
+    rounded_rectangle,
+    polygon,
+    star,
+    ring,
+    menger_sponge,
+    mandelbulb,
     union_,
     intersect,
     subtract,
@@ -63,6 +71,8 @@ enum class NodeKind {
     mirror,
     repeat,
     twist,
+    extrude,
+    revolve,
     shell,
     round,
 };
@@ -91,6 +101,9 @@ struct KindInfo {
     /// |f(a) - f(b)| <= lipschitz |a - b| where the children keep 1. 0: there is no such constant, and what makes the
     /// distance safe is explained at the function.
     float lipschitz = 1.0f;
+    /// Primitives: a profile in the xy plane, the same at every z. Operations: made for such; they see the
+    /// cross-section of their children at z = 0, and `exact` is promised for profiles.
+    bool flat = false;
     std::vector<Parameter> parameters;
     const char* function;  ///< in shapes.glsl or operations.glsl
     /// A second function from there, or null. combine: float f(a, b, parameters...), the fraction of b's material;
