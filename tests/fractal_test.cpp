@@ -53,10 +53,11 @@ TEST(Ellipsoid, IsPreciseForThinBodiesAndOnTheirSymmetryPlanes) {
     }
 }
 
-/// The slope of f at p by differences over 2e-4 m, which average the finer structure but show every slope that a ray
-/// can meet.
+/// The slope of the mandelbulb's field at p by differences over 2e-4 m, which average the finer structure but show
+/// every slope that a ray can meet; 0 where the ball around it counts, whose slope is 1 without a search.
 float slope(const KindInfo& kind, const std::vector<glm::vec3>& values, glm::vec3 p) {
     constexpr float h = 1e-4f;
+    if (kind.primitive(p, values) < glm::length(p) - values[0].x + 4.0f * h) return 0.0f;
     glm::vec3 gradient;
     for (int i = 0; i < 3; ++i) {
         glm::vec3 step(0.0f);
