@@ -39,9 +39,9 @@ Extent own_extent(const FieldNode& node, float level) {
         return extent;
     }
     if (!kind.image) return content_extent(node, level);
-    if (!kind.confined) return kind.image(content_extent(node, level), node.values);
-    Extent extent = kind.image(content_extent(node, 0.0f), node.values);
-    extent.box = extent.box.grown(level);
+    // Of confined content the distance to its bounds counts outside of them.
+    Extent extent = kind.image(content_extent(node, kind.confined ? 0.0f : level), node.values);
+    if (kind.secondary && kind.role == Role::domain) extent.box = extent.box.grown(level);
     return extent;
 }
 

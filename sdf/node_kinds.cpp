@@ -186,8 +186,8 @@ Parameter rate(const char* tip, float initial) {
 /// Parameters of the profiled combinations.
 const Parameter blend = length("radius", "Width of the smooth blend; 0 gives a hard edge", 0.0f);
 const Parameter profile = length("radius", "How far from the edge the profile begins", 0.1f);
-Parameter whole(const char* key, const char* tip, float initial) {
-    return {key, tip, ParameterType::integer, Unit::none, 1.0f, 1000.0f, glm::vec3(initial, 0.0f, 0.0f)};
+Parameter whole(const char* key, const char* tip, float initial, float minimum = 1.0f) {
+    return {key, tip, ParameterType::integer, Unit::none, minimum, 1000.0f, glm::vec3(initial, 0.0f, 0.0f)};
 }
 const Parameter steps = whole("steps", "Number of steps", 3.0f);
 const Parameter columns = whole("columns", "Number of columns", 3.0f);
@@ -209,6 +209,16 @@ constexpr Symmetry xyz{true, true, true}, xz{true, false, true}, yz{false, true,
 Extent within(glm::vec3 half_size, Symmetry symmetric = xyz) { return {{-half_size, half_size}, symmetric}; }
 Extent turned(float radius, float low, float high) { return {{{-radius, low, -radius}, {radius, high, radius}}, xz}; }
 
+bool is_even(float n) { return std::fmod(n, 2.0f) == 0.0f; }
+
+/// A ring or an arc of it around the z axis, open downwards.
+Extent ring_extent(float radius, float thickness, float angle) {
+    const float outer = radius + glm::min(0.5f * thickness, radius), inner = glm::max(radius - 0.5f * thickness, 0.0f);
+    const float half = 0.5f * angle, cosine = std::cos(half);
+    const float x = cosine > 0.0f ? outer * std::sin(half) : outer;
+    return {{{-x, (cosine < 0.0f ? outer : inner) * cosine, -unbounded}, {x, outer, unbounded}}, xz};
+}
+
 Extent cut_ball(float radius, float cut_height, bool above) {
     const float h = glm::clamp(cut_height, -radius, radius);
     const float widest = (h > 0.0f) == above ? std::sqrt(radius * radius - h * h) : radius;
@@ -225,6 +235,14 @@ KindInfo make_primitive(NodeKind kind, const char* key, const char* label, const
     KindInfo k{};
     k.kind = kind, k.key = key, k.label = label, k.tip = tip, k.role = Role::primitive, k.exact = exact;
     k.parameters = std::move(parameters), k.extent = extent, k.function = function, k.primitive = evaluate;
+    return k;
+}
+
+KindInfo make_profile(NodeKind kind, const char* key, const char* label, const char* tip,
+                      std::vector<Parameter> parameters, Extent (*extent)(Values), const char* function,
+                      float (*evaluate)(glm::vec3, Values)) {
+    KindInfo k = make_primitive(kind, key, label, tip, true, std::move(parameters), extent, function, evaluate);
+    k.flat = true;
     return k;
 }
 
@@ -416,6 +434,80 @@ std::vector<KindInfo> make_table() {
         K::ellipsoid, "ellipsoid", "Ellipsoid", "A sphere stretched along the axes", true,
         {lengths("radii", "Half the lengths along x, y and z", 0.5f, 1e-3f)}, [](Values v) { return within(v[0]); },
         FUNCTION(primitive, ellipsoid)));
+    t.push_back(make_profile(
+        K::circle, "circle", "Circle", "A profile: all points within a radius of the z axis",
+        {length("radius", "Radius", 0.5f)},
+        [](Values v) {
+            return within({v[0].x, v[0].x, unbounded});
+        },
+        FUNCTION(primitive, circle)));
+    t.push_back(make_profile(
+        K::rectangle, "rectangle", "Rectangle", "A profile: a rectangle, without end along z",
+        {length("half_width", "Half the length along x", 0.5f), length("half_height", "Half the length along y", 0.3f)},
+        [](Values v) {
+            return within({v[0].x, v[1].x, unbounded});
+        },
+        FUNCTION(primitive, rectangle)));
+    t.push_back(make_profile(
+        K::rounded_rectangle, "rounded_rectangle", "Rounded rectangle",
+        "A profile: a rectangle with rounded corners, without end along z",
+        {length("half_width", "Half the length along x, rounding included", 0.5f),
+         length("half_height", "Half the length along y, rounding included", 0.3f),
+         length("radius", "Radius of the corners, at most the smaller half size", 0.1f)},
+        [](Values v) {
+            return within({v[0].x, v[1].x, unbounded});
+        },
+        FUNCTION(primitive, rounded_rectangle)));
+    t.push_back(make_profile(
+        K::polygon, "polygon", "Polygon", "A profile: a regular polygon with a corner on +y, without end along z",
+        {whole("sides", "Number of sides", 5.0f, 3.0f), length("radius", "From the centre to a corner", 0.5f)},
+        [](Values v) {
+            return within({v[1].x, v[1].x, unbounded}, {true, is_even(v[0].x), true});
+        },
+        FUNCTION(primitive, polygon)));
+    t.push_back(make_profile(
+        K::star, "star", "Star", "A profile: a star with a point on +y, without end along z",
+        {whole("points", "Number of points", 5.0f, 2.0f), length("outer_radius", "From the centre to a point", 0.5f),
+         length("inner_radius", "From the centre to a corner between two points", 0.22f)},
+        [](Values v) {
+            return within({glm::max(v[1].x, v[2].x), glm::max(v[1].x, v[2].x), unbounded},
+                          {true, is_even(v[0].x), true});
+        },
+        FUNCTION(primitive, star)));
+    t.push_back(make_profile(
+        K::ring, "ring", "Ring", "A profile: a ring or an arc of it, without end along z",
+        {length("radius", "From the centre to the middle of the band", 0.4f),
+         length("thickness", "Width of the band, at most twice the radius", 0.2f),
+         angle("angle", "How much of the ring is there, half on either side of the y axis", 360.0f)},
+        [](Values v) { return ring_extent(v[0].x, v[1].x, v[2].x); }, FUNCTION(primitive, ring)));
+    t.push_back(make_primitive(
+        K::menger_sponge, "menger_sponge", "Menger sponge",
+        "A cube with square holes through it, and through what is left", false,
+        {length("half_size", "Half the edge length", 0.5f),
+         {"iterations",
+          "How often holes are made",
+          ParameterType::integer,
+          Unit::none,
+          0.0f,
+          6.0f,
+          {3.0f, 0.0f, 0.0f}}},
+        [](Values v) { return within(glm::vec3(v[0].x)); }, FUNCTION(primitive, menger_sponge)));
+    t.push_back(make_primitive(
+        K::mandelbulb, "mandelbulb", "Mandelbulb",
+        "What stays bounded when points are raised to a power again and again", false,
+        {length("radius", "Radius of the ball that holds it", 0.6f),
+         {"power", "Power", ParameterType::integer, Unit::none, 2.0f, 16.0f, {8.0f, 0.0f, 0.0f}},
+         {"iterations",
+          "How often; more show finer detail",
+          ParameterType::integer,
+          Unit::none,
+          1.0f,
+          16.0f,
+          {6.0f, 0.0f, 0.0f}}},
+        [](Values v) {
+            return within(glm::vec3(v[0].x), {true, !is_even(v[1].x), !is_even(v[1].x)});
+        },
+        FUNCTION(primitive, mandelbulb)));
 
     t.push_back(make_combination(K::union_, "union", "Union", "All of the children together", true, {blend},
                                  FUNCTION(combine, smooth_union), FUNCTION(combine, union_weight), hard_union,
@@ -633,6 +725,33 @@ std::vector<KindInfo> make_table() {
     stretch.stretch = [](Values v) { return 1.0f / glm::min(v[0].x, glm::min(v[0].y, v[0].z)); };
     stretch.confined = true;
     t.push_back(stretch);
+
+    KindInfo extrude = make_modifier(K::extrude, "extrude", "Extrude",
+                                     "A body with the content's cross-section at z = 0, along z", Role::domain, true,
+                                     {length("half_height", "Half the length along z", 0.25f),
+                                      length("radius", "Radius of the edges at the ends, at most half height", 0.0f)},
+                                     "extrude");
+    extrude.domain = domain<shapes::extrude>;
+    extrude.secondary = "extrude_distance";
+    extrude.distance = safe_distance<shapes::extrude_distance>;
+    extrude.flat = true;
+    extrude.image = [](const Extent& content, Values v) {
+        Extent image{content.box, {content.symmetric[0], content.symmetric[1], true}};
+        image.box.low.z = -v[0].x, image.box.high.z = v[0].x;
+        return image;
+    };
+    t.push_back(extrude);
+
+    KindInfo revolve = make_modifier(
+        K::revolve, "revolve", "Revolve", "Turns the content's cross-section at z = 0 about the y axis", Role::domain,
+        true, {length("offset", "How far the content is moved out along x before", 0.5f)}, "revolve");
+    revolve.domain = domain<shapes::revolve>;
+    revolve.flat = true;
+    revolve.image = [](const Extent& content, Values v) {
+        const float r = glm::clamp(content.box.high.x + v[0].x, 0.0f, unbounded);
+        return Extent{{{-r, content.box.low.y, -r}, {r, content.box.high.y, r}}, {true, content.symmetric[1], true}};
+    };
+    t.push_back(revolve);
 
     KindInfo shell = make_modifier(K::shell, "shell", "Shell", "Hollows the content to a skin", Role::distance, true,
                                    {length("thickness", "Thickness of the skin, half on either side", 0.05f)}, "shell");

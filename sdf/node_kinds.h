@@ -42,6 +42,14 @@ enum class NodeKind {
     octahedron,
     pyramid,
     ellipsoid,
+    circle,
+    rectangle,
+    rounded_rectangle,
+    polygon,
+    star,
+    ring,
+    menger_sponge,
+    mandelbulb,
     union_,
     intersect,
     subtract,
@@ -71,6 +79,8 @@ enum class NodeKind {
     bend,
     taper,
     stretch,
+    extrude,
+    revolve,
     shell,
     round,
     displace_sine,
@@ -108,6 +118,9 @@ struct KindInfo {
     /// Primitives: the exact distance on both sides. Others: exact outside, with exact children and default parameters.
     /// Otherwise a lower bound. Every field is 1-Lipschitz where those of its children are.
     bool exact;
+    /// Primitives: a profile in the xy plane, the same at every z. Operations: made for such; they see the
+    /// cross-section of their children at z = 0, and `exact` is promised for profiles.
+    bool flat;
     std::vector<Parameter> parameters;
     const char* function;  ///< in shapes.glsl or operations.glsl
     /// A second function from there, or null. combine: float f(a, b, parameters...), the fraction of b's material;

@@ -327,6 +327,24 @@ float stretch_distance(float d, vec3 p, vec3 factors) {
     return d * min(factors.x, min(factors.y, factors.z));
 }
 
+// The cross-section at z = 0, everywhere: with extrude_distance a body, as far as half_height on either side.
+vec3 extrude(vec3 p, float half_height, float radius) {
+    return vec3(p.x, p.y, 0.0f);
+}
+
+// d is the cross-section's distance; that of an exact profile gives an exact body, unless its edges are rounded. They are
+// within its size, the radius is limited to half_height; where the section is less deep than the radius its ends are domes.
+float extrude_distance(float d, vec3 p, float half_height, float radius) {
+    float r = min(radius, half_height);
+    return prism(d + r, p.z, half_height - r) - r;
+}
+
+// The cross-section at z = 0, moved out along x by offset and turned about the y axis. Exact for exact profiles that do not
+// cross the axis, otherwise a bound.
+vec3 revolve(vec3 p, float offset) {
+    return vec3(length(vec2(p.x, p.z)) - offset, p.y, 0.0f);
+}
+
 // ---- distance --------------------------------------------------------------------------------------------------------
 
 // A skin of this thickness, half of it on either side of the surface.

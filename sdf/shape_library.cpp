@@ -64,8 +64,8 @@ std::vector<Function> parse() {
 std::string used_shapes(std::string_view code) {
     static const std::vector<Function> functions = parse();
     std::set<std::string> wanted = identifiers(code);
-    // A function calls only those before it, so one pass from the end finds all. A name that is wanted later, by a function
-    // before it, is a local variable's.
+    // A function calls only those before it, so one pass from the end finds all. A name that is wanted later, by a
+    // function before it, is a local variable's.
     std::string text;
     for (auto f = functions.rbegin(); f != functions.rend(); ++f) {
         if (!wanted.contains(f->name)) continue;
