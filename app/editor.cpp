@@ -240,6 +240,9 @@ private:
             case CommandId::statistics:
                 ui_.show_statistics = !ui_.show_statistics;
                 break;
+            case CommandId::code:
+                ui_.show_code = !ui_.show_code;
+                break;
             case CommandId::shortcuts:
                 ui_.show_shortcuts = !ui_.show_shortcuts;
                 break;
@@ -284,10 +287,20 @@ private:
     }
 
     void write_report() {
-        ui_.report.write(
-            {picture_.statistics, document_.revision(), pictures_, document_.saved(), document_.file().string(),
-             files_.error().empty() ? picture_.error : files_.error(), selection_name()},
-            seconds());
+        CodePanel::Lines lines;
+        if (ui_.show_code && ui_.report.on()) lines = layout_.code().lines();
+        ui_.report.write({.statistics = picture_.statistics,
+                          .revision = document_.revision(),
+                          .pictures = pictures_,
+                          .saved = document_.saved(),
+                          .file = document_.file().string(),
+                          .error = files_.error().empty() ? picture_.error : files_.error(),
+                          .selection = selection_name(),
+                          .code = ui_.show_code,
+                          .code_lines = lines.count,
+                          .selected_lines = lines.selected,
+                          .inside_lines = lines.inside},
+                         seconds());
     }
 
     // In order of life: the renderer's context goes before the window it shares with.

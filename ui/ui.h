@@ -26,7 +26,8 @@ struct Ui {
     View view = View::result;
     bool show_statistics = true;
     bool show_shortcuts = false;
-    Id reveal = 0;            ///< node that the tree opens and scrolls to, once
+    bool show_code = false;
+    Id reveal = 0;            ///< node, material or light that its list scrolls to, once
     bool open_add = false;    ///< the tree opens its list of kinds to add, once
     bool focus_name = false;  ///< the inspector puts the keyboard into the name field, once
     std::string name_text;    ///< what the name field holds while someone types
