@@ -32,7 +32,8 @@ void check_outputs(const std::vector<std::filesystem::path>& outputs) {
                 fmt::format("--output: \"{}\" given, expected a name that ends in .exr or .png", file.string()));
         const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
         if (!std::filesystem::is_directory(folder))
-            throw ImageError(fmt::format("{}: cannot be written: there is no folder {}", file.string(), folder.string()));
+            throw ImageError(
+                fmt::format("{}: cannot be written: there is no folder {}", file.string(), folder.string()));
     }
 }
 

@@ -37,6 +37,12 @@ Theme theme_for(const Window& window) {
     return theme;
 }
 
+/// Looking around is no work on the scene, though undo covers it.
+bool moves_camera(const Edit& edit) {
+    const auto* set = std::get_if<SetValue>(&edit);
+    return set && set->object.type == ObjectType::camera;
+}
+
 class Editor {
 public:
     explicit Editor(const EditorOptions& options)
@@ -79,10 +85,11 @@ private:
     }
 
     void frame() {
-        window_.begin_frame();
+        window_.begin_frame(keyboard_changes_hands());
         ui_.report.begin_frame();
-        // A gesture lasts while something is held or typed into; every other frame may begin a new one.
-        if (!held_) {
+        // A gesture lasts while one thing is held or typed into; every other frame may begin a new one.
+        if (const ImGuiID holder = ImGui::GetActiveID(); !held_ || holder != holder_) {
+            holder_ = holder;
             gesture_ = ++last_gesture_;
             gesture_edited_ = gesture_moves_ = false;
         }
@@ -98,7 +105,7 @@ private:
                                                  [&](CommandId id) { return enabled(id); });
         carry_out(result.edits, gesture_);
         carry_out_camera(result.viewport);
-        if (result.dismissed) files_.show_error("");
+        if (result.dismissed) files_.dismiss();
         if (result.command) perform(*result.command);
         files_.draw(ui_);
         if (document_.generation() != shown_document_) show_new_document();
@@ -108,6 +115,13 @@ private:
         window_.set_title(fmt::format("{}{} - Farfield", document_.saved() ? "" : "* ", document_.name()));
         window_.end_frame();
         submit(result.viewport.size);
+    }
+
+    /// A field that was given the keyboard has it in the frame after the next.
+    bool keyboard_changes_hands() const {
+        const ImGuiContext& g = *ImGui::GetCurrentContext();
+        const bool moving = g.NavMoveSubmitted && (g.NavMoveFlags & ImGuiNavMoveFlags_Tabbing);
+        return ui_.focus_name || files_.wants_keyboard() || moving;
     }
 
     void show_new_document() {
@@ -138,17 +152,18 @@ private:
                 const ObjectRef next = selection_after(edit);
                 const Id id = document_.apply(edit, gesture);
                 gesture_edited_ = true;
+                if (!moves_camera(edit)) files_.edit_succeeded();
                 // Settings are no object in the scene that could be followed quicker at a lower resolution, which would
                 // discard the samples that most of them keep.
                 const auto* set = std::get_if<SetValue>(&edit);
                 gesture_moves_ |= !set || set->object.type != ObjectType::settings;
                 ui_.selection = next;
                 if (std::holds_alternative<InsertNode>(edit)) ui_.selection = {ObjectType::node, ui_.reveal = id};
-                if (std::holds_alternative<AddMaterial>(edit)) ui_.selection = {ObjectType::material, id};
-                if (std::holds_alternative<AddLight>(edit)) ui_.selection = {ObjectType::light, id};
+                if (std::holds_alternative<AddMaterial>(edit)) ui_.selection = {ObjectType::material, ui_.reveal = id};
+                if (std::holds_alternative<AddLight>(edit)) ui_.selection = {ObjectType::light, ui_.reveal = id};
                 if (const auto* moved = std::get_if<MoveNode>(&edit)) ui_.reveal = moved->node;
             } catch (const EditError& error) {
-                files_.show_error(error.what());
+                files_.edit_failed(error.what());
             }
         }
     }
@@ -215,9 +230,11 @@ private:
                 break;
             case CommandId::undo:
                 document_.undo();
+                files_.edit_succeeded();
                 break;
             case CommandId::redo:
                 document_.redo();
+                files_.edit_succeeded();
                 break;
             case CommandId::add:
                 ui_.open_add = true;
@@ -316,6 +333,7 @@ private:
     unsigned last_gesture_ = 0, gesture_ = 0, wheel_gesture_ = 0;
     double wheel_until_ = 0.0;
     bool held_ = false;            ///< some control has the mouse or the keyboard
+    ImGuiID holder_ = 0;           ///< which
     bool gesture_edited_ = false;  ///< and has changed the document
     bool gesture_moves_ = false;   ///< and more of it than settings
     bool interacting_ = false;

@@ -131,8 +131,14 @@ std::optional<fs::path> FileDialog::draw(Ui& ui) {
     request_ = false;
     const ImVec2 centre = ImGui::GetMainViewport()->GetCenter();
     ImGui::SetNextWindowPos(centre, ImGuiCond_Appearing, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({ui.theme.px(620.0f), ui.theme.px(430.0f)}, ImGuiCond_Appearing);
-    if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_NoSavedSettings)) return std::nullopt;
+    const ImVec2 room = ImGui::GetMainViewport()->WorkSize;
+    ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, room);
+    ImGui::SetNextWindowSize({std::min(ui.theme.px(620.0f), room.x), std::min(ui.theme.px(430.0f), room.y)},
+                             ImGuiCond_Appearing);
+    if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_NoSavedSettings)) {
+        focus_ = false;
+        return std::nullopt;
+    }
 
     draw_path_bar(ui);
     draw_entries(ui);
@@ -166,7 +172,10 @@ std::optional<fs::path> FileDialog::draw(Ui& ui) {
         result = accept();
         focus_ = !result;
     }
-    if (result || cancelled) ImGui::CloseCurrentPopup();
+    if (result || cancelled) {
+        focus_ = false;
+        ImGui::CloseCurrentPopup();
+    }
     ImGui::EndPopup();
     return cancelled ? std::nullopt : result;
 }

@@ -29,7 +29,7 @@ void InputQueue::move(ImVec2 to) {
         events_.push_back({Kind::move, 0, 0, 0, 0, to});
 }
 
-std::vector<KeyPress> InputQueue::deliver(GLFWwindow* window) {
+std::vector<KeyPress> InputQueue::deliver(GLFWwindow* window, bool hold_keys) {
     std::vector<KeyPress> pressed;
     std::vector<int> keys;
     unsigned buttons = 0;
@@ -39,6 +39,7 @@ std::vector<KeyPress> InputQueue::deliver(GLFWwindow* window) {
         // What follows a click belongs to the next frame, and so does the release of any key after a press: that of
         // Ctrl would turn Ctrl+A into A.
         if (buttons != 0 && e.kind != Kind::button) break;
+        if (hold_keys && (e.kind == Kind::key || e.kind == Kind::character)) break;
         if (e.kind == Kind::key) {
             if (e.action == GLFW_RELEASE ? !pressed.empty() : std::find(keys.begin(), keys.end(), e.code) != keys.end())
                 break;

@@ -32,8 +32,8 @@ public:
 
     bool empty() const { return events_.empty(); }
     /// Hands the next events to ImGui; to be called between the backends' NewFrame and ImGui's. Returns the keys that
-    /// went down.
-    std::vector<KeyPress> deliver(GLFWwindow* window);
+    /// went down. With `hold_keys` keys wait, and what comes after them.
+    std::vector<KeyPress> deliver(GLFWwindow* window, bool hold_keys);
 
 private:
     enum class Kind { key, character, button, move, scroll };

@@ -13,7 +13,11 @@ void row(Ui& ui, const char* group, ObjectRef object, const std::string& name, c
     if (ImGui::Selectable("##row", ui.selection == object, ImGuiSelectableFlags_AllowDoubleClick,
                           {0.0f, ImGui::GetTextLineHeight()})) {
         ui.selection = object;
-        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) ui.focus_name = true;
+        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && object.id != 0) ui.focus_name = true;
+    }
+    if (object.id != 0 && ui.reveal == object.id) {
+        ImGui::SetScrollHereY();
+        ui.reveal = 0;
     }
     ui.report.item(group, name);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
