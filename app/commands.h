@@ -12,9 +12,13 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace farfield {
+
+/// What a setting is called on the command line: "--ao-radius" for "ao_radius".
+std::string option_name(std::string_view key);
 
 /// Settings given on the command line; those not given are the scene's own.
 struct Overrides {

@@ -5,6 +5,7 @@
 #include "app/file_actions.h"
 #include "app/layout.h"
 #include "app/window.h"
+#include "sdf/scene_file.h"
 #include "ui/tree_panel.h"
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -345,8 +347,15 @@ private:
 }  // namespace
 
 int run_editor(const EditorOptions& options) {
-    Editor editor(options);
-    editor.run();
+    std::optional<Editor> editor;
+    try {
+        editor.emplace(options);
+    } catch (const ContextError&) {
+        // Without a window nobody sees what is wrong with the scene, and that is the easier thing to mend.
+        if (!options.scene.empty()) load_scene(options.scene);
+        throw;
+    }
+    editor->run();
     return 0;
 }
 

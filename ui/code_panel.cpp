@@ -47,8 +47,10 @@ void gather(const Node& node, std::unordered_set<Id>& ids) {
     for (const Node& child : node.children) gather(child, ids);
 }
 
-/// A button in a title strip that ends at `right`; moves `right` to its left end.
-bool strip_button(Ui& ui, const char* label, const char* name, float width, bool on, float y, float& right) {
+/// A button in a title strip that ends at `right`; moves `right` to its left end. None where there is no room.
+bool strip_button(Ui& ui, const char* label, const char* name, float width, bool on, float y, float& right,
+                  const char* tip, const char* hint) {
+    if (right - width < ImGui::GetWindowPos().x + ui.theme.px(60.0f)) return false;
     right -= width;
     ImGui::SetCursorScreenPos({right, y});
     right -= ui.theme.px(4.0f);
@@ -56,6 +58,7 @@ bool strip_button(Ui& ui, const char* label, const char* name, float width, bool
     const bool pressed = ImGui::Button(label, {width, 0.0f});
     if (on) ImGui::PopStyleColor();
     ui.report.item("code", name);
+    tooltip(ui, tip, hint);
     return pressed;
 }
 
@@ -87,18 +90,21 @@ void CodePanel::title(Ui& ui) {
     const ImVec2 below = ImGui::GetCursorScreenPos();
     const float y = low.y + ui.theme.px(3.0f);
     float right = high.x - ui.theme.px(6.0f);
-    const bool just_copied = ImGui::GetTime() - copied_ < shown_as_copied;
-    if (strip_button(ui, just_copied ? "Copied" : "Copy", "copy", ui.theme.px(62.0f), false, y, right)) {
+    const char* copy_label = ImGui::GetTime() - copied_ < shown_as_copied ? "Copied" : "Copy";
+    if (strip_button(ui, copy_label, "copy", ui.theme.px(62.0f), false, y, right,
+                     "Copies the selected text, or all of it",
+                     "Drag over the code to select text. Ctrl+C copies too")) {
         const std::string chosen = chosen_text();
         copy(chosen.empty() ? code_.text : chosen);
     }
-    tooltip(ui, "Copies the selected text, or all of it", "Drag over the code to select text. Ctrl+C copies too");
     right -= ui.theme.px(6.0f);
-    if (strip_button(ui, "Live", "live", ui.theme.px(48.0f), tier_ == Tier::live, y, right)) tier_ = Tier::live;
-    tooltip(ui, "The program whose numbers come from a parameter block", "No edit of a number needs a new program");
-    if (strip_button(ui, "Literals", "literals", ui.theme.px(70.0f), tier_ == Tier::specialised, y, right))
+    if (strip_button(ui, "Live", "live", ui.theme.px(48.0f), tier_ == Tier::live, y, right,
+                     "The program whose numbers come from a parameter block",
+                     "No edit of a number needs a new program"))
+        tier_ = Tier::live;
+    if (strip_button(ui, "Literals", "literals", ui.theme.px(70.0f), tier_ == Tier::specialised, y, right,
+                     "The program with every number as a literal", "It runs fastest"))
         tier_ = Tier::specialised;
-    tooltip(ui, "The program with every number as a literal", "It runs fastest");
     ImGui::SetCursorScreenPos(below);
 }
 

@@ -149,7 +149,7 @@ bool number_field(Ui& ui, const char* label, const Parameter& parameter, float& 
     const bool hovered = ImGui::ItemHoverable(box, id);
 
     const bool pressed = hovered && io.MouseClicked[ImGuiMouseButton_Left];
-    const bool tabbed = (GImGui->LastItemData.StatusFlags & ImGuiItemStatusFlags_FocusedByTabbing) != 0;
+    const bool tabbed = ImGui::GetCurrentContext()->NavActivateInputId == id;
     const bool begins = tabbed || (pressed && (io.KeyCtrl || io.MouseDoubleClicked[ImGuiMouseButton_Left]));
     if (begins) {
         entry.typed = id;
