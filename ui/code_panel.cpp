@@ -230,10 +230,8 @@ void CodePanel::select_text(Ui& ui, Place at) {
         anchor_ = {};
         head_ = {marks_.size() - 1, line_text(marks_.size() - 1).size()};
     }
-    if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_C), false)) {
-        const std::string chosen = chosen_text();
-        copy(chosen.empty() ? code_.text : chosen);
-    }
+    const std::string chosen = chosen_text();
+    if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_C), false) && !chosen.empty()) copy(chosen);
 }
 
 void CodePanel::context_menu(const Ui& ui, const Scene& scene) {
