@@ -17,7 +17,7 @@ constexpr const char* extension = ".json";
 
 void FileDialog::show(Mode mode, const fs::path& start) {
     mode_ = mode;
-    request_ = focus_ = true;
+    request_ = focus_ = picked_ = true;
     accepted_ = confirm_ = false;
     std::error_code failed;
     fs::path from = start.empty() ? fs::current_path(failed) : fs::absolute(start, failed);
@@ -111,8 +111,9 @@ void FileDialog::draw_entries(Ui& ui) {
         if (ImGui::Selectable(label.c_str(), text_ == entry.name,
                               ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups)) {
             const bool twice = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+            focus_ = true;  // Enter accepts what was picked
             if (!entry.folder)
-                text_ = entry.name, accepted_ = twice, confirm_ = false;
+                text_ = entry.name, accepted_ = twice, picked_ = true, confirm_ = false;
             else if (twice)
                 wanted = entry.name;
         }
@@ -145,9 +146,12 @@ std::optional<fs::path> FileDialog::draw(Ui& ui) {
     if (focus_) ImGui::SetKeyboardFocusHere();
     focus_ = false;
     ImGui::SetNextItemWidth(-FLT_MIN);
+    // A name that nobody typed gives way to the first key.
     const bool entered =
-        ImGui::InputTextWithHint("##path", "File name or path", &text_, ImGuiInputTextFlags_EnterReturnsTrue);
-    if (ImGui::IsItemEdited()) confirm_ = false, problem_.clear();
+        ImGui::InputTextWithHint("##path", "File name or path", &text_,
+                                 ImGuiInputTextFlags_EnterReturnsTrue |
+                                     (picked_ ? ImGuiInputTextFlags_AutoSelectAll : ImGuiInputTextFlags_None));
+    if (ImGui::IsItemEdited()) confirm_ = picked_ = false, problem_.clear();
     accepted_ |= entered;
     ui.report.item("dialog", "path");
     ImGui::PushStyleColor(ImGuiCol_Text, confirm_ ? ui.theme.accent : ui.theme.error);

@@ -35,6 +35,7 @@ private:
 
     Mode mode_ = Mode::open;
     bool request_ = false, focus_ = false, accepted_ = false, confirm_ = false;
+    bool picked_ = false;  ///< the text comes from the list, not from the keyboard
     std::filesystem::path folder_;
     std::string text_;
     std::string problem_;

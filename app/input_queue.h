@@ -26,7 +26,7 @@ public:
         events_.push_back({Kind::key, key, scancode, action, modifiers, {}});
     }
     void character(unsigned code) { events_.push_back({Kind::character, static_cast<int>(code), 0, 0, 0, {}}); }
-    void button(int button, int action) { events_.push_back({Kind::button, button, 0, action, 0, {}}); }
+    void button(int button, int action);
     void move(ImVec2 to);
     void scroll(ImVec2 by) { events_.push_back({Kind::scroll, 0, 0, 0, 0, by}); }
 
@@ -41,11 +41,14 @@ private:
         Kind kind;
         int code, scancode, action, modifiers;
         ImVec2 position;
+        double time = 0.0;  ///< of a button: when it arrived, seconds
     };
+    static constexpr int buttons = 5;  ///< that ImGui knows
 
     std::deque<Event> events_;
     ImVec2 mouse_{-1e6f, -1e6f};
-    bool down_[5] = {};
+    bool down_[buttons] = {};
+    double pressed_[buttons] = {};  ///< when each went down last
 };
 
 }  // namespace farfield
