@@ -107,6 +107,7 @@ private:
                                                  [&](CommandId id) { return enabled(id); });
         carry_out(result.edits, gesture_);
         carry_out_camera(result.viewport);
+        if (std::exchange(save_, false)) files_.save();
         if (result.dismissed) files_.dismiss();
         if (result.command) perform(*result.command);
         files_.draw(ui_);
@@ -276,7 +277,10 @@ private:
             const auto command = command_for(press);
             const bool busy = ImGui::GetIO().WantTextInput || (held_ && ImGui::IsAnyMouseDown());
             if (asked || (busy && command != CommandId::save)) continue;
-            if (const auto view = view_for(press))
+            if (command == CommandId::save && ImGui::GetIO().WantTextInput) {
+                ImGui::ClearActiveID();  // what is being typed belongs to what is saved
+                save_ = true;
+            } else if (const auto view = view_for(press))
                 ui_.view = *view;
             else if (command && enabled(*command))
                 perform(*command);
@@ -336,6 +340,7 @@ private:
     double wheel_until_ = 0.0;
     bool held_ = false;            ///< some control has the mouse or the keyboard
     ImGuiID holder_ = 0;           ///< which
+    bool save_ = false;            ///< once the panels have handed in what was being typed
     bool gesture_edited_ = false;  ///< and has changed the document
     bool gesture_moves_ = false;   ///< and more of it than settings
     bool interacting_ = false;
