@@ -6,6 +6,7 @@
 #include <imgui_internal.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <unordered_set>
@@ -322,12 +323,14 @@ void CodePanel::text(Ui& ui, const Scene& scene) {
 
     if (!scroll_to_) return;
     scroll_to_ = false;
-    auto wanted = std::find(marks_.begin(), marks_.end(), Mark::selected);
-    if (wanted == marks_.end()) wanted = std::find(marks_.begin(), marks_.end(), Mark::inside);
-    if (wanted == marks_.end()) return;
-    const auto in_sight = [&](std::size_t line) { return row(line) >= low.y && row(line) + height <= low.y + size.y; };
+    // Each run of marked lines is a part of the node; one that begins in sight is enough.
+    const auto begins = [&](std::size_t line) {
+        return marks_[line] != Mark::none && (line == 0 || marks_[line - 1] == Mark::none);
+    };
     for (std::size_t i = first; i < last; ++i)
-        if (marks_[i] == *wanted && in_sight(i)) return;
+        if (begins(i) && row(i) >= low.y && row(i) + height <= low.y + size.y) return;
+    const auto wanted = std::find_if(marks_.begin(), marks_.end(), [](Mark m) { return m != Mark::none; });
+    if (wanted == marks_.end()) return;
     ImGui::SetScrollY(height * static_cast<float>(wanted - marks_.begin()) - 0.25f * size.y);
 }
 
