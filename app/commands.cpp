@@ -70,6 +70,12 @@ void check_output(const std::filesystem::path& file, std::initializer_list<std::
         throw ImageError(fmt::format("{}: cannot be written: there is no folder {}", file.string(), folder.string()));
 }
 
+std::string option_name(std::string_view key) {
+    std::string option = fmt::format("--{}", key);
+    std::replace(option.begin(), option.end(), '_', '-');
+    return option;
+}
+
 void Overrides::apply(Settings& settings) const {
     for (const auto& [key, text] : values) {
         for (const Field<Settings>& field : fields<Settings>()) {
@@ -80,13 +86,14 @@ void Overrides::apply(Settings& settings) const {
                 for (std::size_t i = 0; i < field.parameter.choices.size(); ++i)
                     if (text == field.parameter.choices[i]) value.x = static_cast<float>(i), read = true;
             } else {
-                const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value.x);
-                read = error == std::errc() && end == text.data() + text.size() &&
-                       why_refused(field.parameter, value).empty();
+                const char* start = text.data() + (text.starts_with('+') && !text.starts_with("+-") ? 1 : 0);
+                const char* stop = text.data() + text.size();
+                const auto [end, error] = std::from_chars(start, stop, value.x);
+                read = error == std::errc() && end == stop && why_refused(field.parameter, value).empty();
             }
             if (!read)
                 throw std::invalid_argument(
-                    fmt::format("{}: \"{}\" given, expected {}", key, text, expectation(field.parameter)));
+                    fmt::format("{}: \"{}\" given, expected {}", option_name(key), text, expectation(field.parameter)));
             field.set(settings, value);
         }
     }

@@ -22,6 +22,9 @@ namespace farfield {
 /// folder: before a long render, not after it.
 void check_output(const std::filesystem::path& file, std::initializer_list<std::string_view> extensions);
 
+/// What a setting is called on the command line: "--ao-radius" for "ao_radius".
+std::string option_name(std::string_view key);
+
 /// Settings given on the command line; those not given are the scene's own.
 struct Overrides {
     std::vector<std::pair<std::string, std::string>> values;  ///< key and text, as of the settings table

@@ -37,6 +37,7 @@ constexpr Command commands[] = {
     {CommandId::move_up, "Edit", "move_up", "Move up", GLFW_KEY_UP, alt, "Alt+Up", true},
     {CommandId::move_down, "Edit", "move_down", "Move down", GLFW_KEY_DOWN, alt, "Alt+Down"},
     {CommandId::statistics, "View", "statistics", "Statistics", GLFW_KEY_F3, plain, "F3", true},
+    {CommandId::code, "View", "code", "Code", GLFW_KEY_F4, plain, "F4"},
     {CommandId::shortcuts, "Help", "shortcuts", "Keys and mouse", GLFW_KEY_F1, plain, "F1"},
 };
 
@@ -51,10 +52,12 @@ constexpr std::pair<const char*, const char*> mouse[] = {
     {"Right-click a value", "Back to its default"},
     {"Drag a node in the tree", "Re-order, or move into another"},
     {"Right-click a node", "What can be done with it"},
+    {"Click a line of code", "Select its node; drag to select text"},
 };
 
 bool is_on(const Ui& ui, CommandId id) {
-    return (id == CommandId::statistics && ui.show_statistics) || (id == CommandId::shortcuts && ui.show_shortcuts);
+    return (id == CommandId::statistics && ui.show_statistics) || (id == CommandId::code && ui.show_code) ||
+           (id == CommandId::shortcuts && ui.show_shortcuts);
 }
 
 void view_entries(Ui& ui) {
@@ -64,6 +67,20 @@ void view_entries(Ui& ui) {
         ui.report.item("menu/view", view.key);
         tooltip(ui, view.tip);
     }
+}
+
+/// What the menu's other end has: the one panel that is not always there.
+bool code_switch(Ui& ui) {
+    const float width = ImGui::CalcTextSize("Code").x + 2.0f * ImGui::GetStyle().ItemSpacing.x;
+    const float left = ImGui::GetWindowWidth() - width;
+    if (left < ImGui::GetCursorPosX()) return false;
+    ImGui::SetCursorPosX(left);
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.show_code ? ui.theme.accent : ui.theme.text);
+    const bool pressed = ImGui::MenuItem("Code");
+    ImGui::PopStyleColor();
+    ui.report.item("menu", "code");
+    tooltip(ui, "The GLSL that the scene comes to, with the lines of what is selected", "F4");
+    return pressed;
 }
 
 void table_line(const Ui& ui, const char* left, const char* right) {
@@ -109,6 +126,7 @@ std::optional<CommandId> command_menus(Ui& ui, const std::function<bool(CommandI
         }
         ImGui::EndMenu();
     }
+    if (code_switch(ui)) chosen = CommandId::code;
     return chosen;
 }
 

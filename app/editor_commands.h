@@ -23,6 +23,7 @@ enum class CommandId {
     remove,
     move_up,
     move_down,
+    code,
     statistics,
     shortcuts,
 };

@@ -21,10 +21,12 @@ struct Outcome {
     std::string output;  ///< stdout and stderr
 };
 
-Outcome farfield_command(const std::string& arguments) {
+/// `before`: shell commands to run first.
+Outcome farfield_command(const std::string& arguments, const char* before = "") {
     Outcome outcome;
-    FILE* pipe =
-        popen(fmt::format("env -u DISPLAY -u WAYLAND_DISPLAY '{}' {} 2>&1", FARFIELD_PROGRAM, arguments).c_str(), "r");
+    const std::string command =
+        fmt::format("exec 2>&1; {}env -u DISPLAY -u WAYLAND_DISPLAY '{}' {}", before, FARFIELD_PROGRAM, arguments);
+    FILE* pipe = popen(command.c_str(), "r");
     if (!pipe) return outcome;
     std::array<char, 4096> buffer{};
     while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe)) outcome.output.append(buffer.data(), n);
@@ -154,6 +156,57 @@ TEST(CommandLine, WrongUseAndWrongInputExitWithTwo) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out.png"));
 }
 
+TEST(CommandLine, AMessageAboutAnOptionTellsOptionFoundAndExpected) {
+    const std::pair<const char*, const char*> cases[] = {
+        {"--frames 0", "--frames: \"0\" given, expected a whole number between 1 and 1000000"},
+        {"--frames 1.5", "--frames: \"1.5\" given, expected a whole number between 1 and 1000000"},
+        {"--seed -1", "--seed: \"-1\" given, expected a whole number between 0 and 4294967295"},
+        {"--context foo", "--context: \"foo\" given, expected auto, egl or osmesa"},
+        {"--view q", "--view: \"q\" given, expected one of result|"},
+        {"--ao-radius big", "--ao-radius: \"big\" given, expected a number"},
+        {"--exposure +-2", "--exposure: \"+-2\" given, expected a number between -20 and 20"},
+        {"--size 8x", "--size: \"8x\" given, expected WIDTHxHEIGHT, each between 1 and 16384"},
+        {"--size 16384x16384", "--size: \"16384x16384\" given, expected at most 33554432 pixels"},
+        {"--size", "--size: nothing given, expected WxH"},
+    };
+    for (const auto& [option, message] : cases) {
+        const Outcome outcome = farfield_command(fmt::format("render {} -o a.png {}", scene("cornell"), option));
+        EXPECT_EQ(outcome.status, 2) << option;
+        EXPECT_TRUE(outcome.output.starts_with(message)) << option << "\n" << outcome.output;
+    }
+    const Outcome unknown = farfield_command("rendr " + scene("cornell"));
+    EXPECT_EQ(unknown.status, 2);
+    EXPECT_TRUE(unknown.output.starts_with("\"rendr\" given, expected render, glsl, check, ")) << unknown.output;
+}
+
+TEST(CommandLine, NumbersMayHaveAPlus) {
+    const TemporaryFolder folder;
+    const Outcome outcome =
+        farfield_command(fmt::format("render {} --size +8x8 --frames +1 --samples +1 --exposure +2 -o '{}'",
+                                     scene("cornell"), (folder / "a.png").string()));
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+}
+
+TEST(CommandLine, AFullDiskIsNoticed) {
+    for (const std::string& arguments :
+         {"check " + scene("cornell"), "glsl " + scene("helix"), std::string("--help"), std::string("render --help")}) {
+        const Outcome outcome = farfield_command(arguments + " >/dev/full");
+        EXPECT_EQ(outcome.status, 1) << arguments;
+        EXPECT_NE(outcome.output.find("No space left on device"), std::string::npos) << arguments << outcome.output;
+    }
+    EXPECT_EQ(farfield_command("check nosuch.json 2>/dev/full").status, 2) << "a message that cannot be written";
+    // As full as can be had without a disk of one's own: files of 4 blocks at most.
+    const TemporaryFolder folder;
+    for (const char* file : {"a.png", "a.exr"}) {
+        const Outcome outcome = farfield_command(fmt::format("render {} --size 256x256 --frames 1 --samples 1 -o '{}'",
+                                                             scene("cornell"), (folder / file).string()),
+                                                 "trap '' XFSZ; ulimit -f 4; ");
+        EXPECT_EQ(outcome.status, 1) << file;
+        EXPECT_NE(outcome.output.find(std::string(file) + ": cannot be written"), std::string::npos) << outcome.output;
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
+}
+
 TEST(CommandLine, AnImpossibleOutputExitsWithOneAndLeavesNothing) {
     const TemporaryFolder folder;
     for (const char* file : {"no/such/folder/a.png", "a.exr/b.exr"}) {
@@ -168,6 +221,9 @@ TEST(CommandLine, WithoutADisplayTheEditorSaysSo) {
     const Outcome outcome = farfield_command(scene("cornell"));
     EXPECT_EQ(outcome.status, 1);
     EXPECT_FALSE(outcome.output.empty());
+    const Outcome missing = farfield_command("nosuch.json");
+    EXPECT_EQ(missing.status, 2);
+    EXPECT_EQ(missing.output, "nosuch.json: cannot be opened: No such file or directory\n");
 }
 
 }  // namespace

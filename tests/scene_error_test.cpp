@@ -94,6 +94,8 @@ TEST(SceneFileError, Syntax) {
                  "not valid JSON: unexpected ',', expected '[', '{', or a literal");
     expect_error("\"red\",\n", "\"red\"\n", 19, "root/children[0] \"ball\"/material",
                  "not valid JSON: unexpected string literal, expected '}'");
+    expect_error(small + std::string("\0{}", 3), 28, "", "not valid JSON: a zero byte, expected text alone");
+    expect_error(std::string("{\n\0}", 4), 2, "", "not valid JSON: a zero byte, expected text alone");
     expect_error(small + "{}", 28, "", "not valid JSON: unexpected '{', expected end of input");
     expect_error(small.substr(0, small.find("0.5") + 3), 19, "root/children[0] \"ball\"/radius",
                  "not valid JSON: unexpected end of input, expected '}'");
