@@ -28,8 +28,8 @@ constexpr std::string_view own_suffix = "own";  ///< marks names that the librar
 constexpr float largest_default_count = 1000.0f;
 constexpr float steepest = 1e6f;
 
-/// glslang's names of tokens in its syntax errors.
-std::string with_signs(std::string message) {
+/// With signs in place of glslang's names of tokens, and without its stray spaces.
+std::string readable(std::string message) {
     static const std::pair<const char*, const char*> names[] = {{"LEFT_BRACE", "{"},
                                                                 {"RIGHT_BRACE", "}"},
                                                                 {"LEFT_PAREN", "("},
@@ -57,7 +57,15 @@ std::string with_signs(std::string message) {
                 message.replace(at, whole.size(), sign);
         }
     }
-    return message;
+    std::string tidy;
+    for (const char c : message) {
+        const char last = tidy.empty() ? ' ' : tidy.back();
+        if (c == ' ' && (last == ' ' || last == '(')) continue;
+        if (c == ':' && last == ' ' && tidy.size() > 1) tidy.pop_back();
+        tidy += c;
+    }
+    while (!tidy.empty() && tidy.back() == ' ') tidy.pop_back();
+    return tidy;
 }
 
 /// From lines as "ERROR: 1:12: 'x' : undeclared identifier"; string 1 is the user's text.
@@ -82,9 +90,7 @@ std::vector<CodeError> read_log(std::string_view log, int lines) {
         const std::string mark = fmt::format("_{}'", own_suffix);
         for (std::size_t at = message.find(mark); at != message.npos; at = message.find(mark))
             message.replace(at, mark.size(), "'");
-        while (!message.empty() && message.front() == ' ') message.erase(0, 1);
-        while (!message.empty() && message.back() == ' ') message.pop_back();
-        errors.push_back({string == 1 ? std::clamp(number, 1, lines) : lines, with_signs(message)});
+        errors.push_back({string == 1 ? std::clamp(number, 1, lines) : lines, readable(message)});
     }
     if (errors.empty()) errors.push_back({1, "the code does not compile"});
     return errors;
@@ -103,7 +109,7 @@ std::map<std::string, std::vector<float>> global_values(TIntermNode* root) {
                 for (int i = 0; i < symbol->getConstArray().size(); ++i) {
                     const glslang::TConstUnion& c = symbol->getConstArray()[i];
                     values[symbol->getName().c_str()].push_back(
-                        c.getType() == glslang::EbtDouble  ? static_cast<float>(c.getDConst())
+                        c.getType() == glslang::EbtDouble ? static_cast<float>(c.getDConst())
                         : c.getType() == glslang::EbtInt  ? static_cast<float>(c.getIConst())
                         : c.getType() == glslang::EbtBool ? static_cast<float>(c.getBConst())
                                                           : 0.0f);
@@ -205,7 +211,8 @@ CustomCode::Parsed CustomCode::parse(std::string_view text) {
         if (declared.size() == 1 && declared[0] > 0.0f && declared[0] <= steepest)
             code->lipschitz_ = declared[0];
         else
-            errors.push_back({1, fmt::format("lipschitz is no constant number above 0 and at most {:g}", steepest)});
+            errors.push_back({source.first_line("lipschitz"),
+                              fmt::format("lipschitz is no constant number above 0 and at most {:g}", steepest)});
     }
     code->program_ = compile_custom(root, inputs, errors);
     if (failed()) return parsed;
@@ -223,6 +230,7 @@ void CustomCode::add_parameter(const CustomUniform& uniform, std::span<const flo
         errors.push_back({uniform.line, fmt::format("{}: {}", uniform.name, message)});
     };
     if (is_reserved(uniform.name)) return fail("every node has a value of this name");
+    if (uniform.name == "lipschitz") return fail("this name belongs to the constant, as const float lipschitz = 1.5;");
     const float low = parameter.minimum, high = parameter.maximum;
     if (!(low >= -largest_value && high <= largest_value))
         return fail(fmt::format("the range goes beyond -{0:g} .. {0:g}", largest_value));

@@ -558,7 +558,7 @@ private:
         std::vector<Cell> cells;  // glslang keeps floats as doubles
         for (int i = 0; i < array.size(); ++i) {
             const TConstUnion& c = array[i];
-            cells.push_back(c.getType() == EbtDouble  ? std::bit_cast<Cell>(static_cast<float>(c.getDConst()))
+            cells.push_back(c.getType() == EbtDouble ? std::bit_cast<Cell>(static_cast<float>(c.getDConst()))
                             : c.getType() == EbtInt  ? static_cast<Cell>(c.getIConst())
                             : c.getType() == EbtUint ? c.getUConst()
                                                      : static_cast<Cell>(c.getBConst()));

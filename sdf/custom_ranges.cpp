@@ -156,8 +156,8 @@ double step(TIntermTyped* terminal, long long variable) {
     if (!constant || !is_variable(binary->getLeft())) return 0.0;
     const TConstUnion& c = constant->getConstArray()[0];
     const double amount = c.getType() == EbtDouble ? static_cast<float>(c.getDConst())
-                          : c.getType() == EbtInt ? static_cast<double>(c.getIConst())
-                                                  : static_cast<double>(c.getUConst());
+                          : c.getType() == EbtInt  ? static_cast<double>(c.getIConst())
+                                                   : static_cast<double>(c.getUConst());
     return binary->getOp() == EOpAddAssign ? amount : binary->getOp() == EOpSubAssign ? -amount : 0.0;
 }
 

@@ -461,6 +461,12 @@ void CustomSource::describe(CustomUniform& uniform) {
     std::replace(uniform.tip.begin(), uniform.tip.end(), '_', ' ');
 }
 
+int CustomSource::first_line(std::string_view name) const {
+    for (std::size_t i = 0; i < tokens_.size(); ++i)
+        if (word(i) == name) return tokens_[i].line;
+    return 1;
+}
+
 Names CustomSource::foreign_names() const {
     Names names;
     for (std::size_t i = 0; i < tokens_.size(); ++i)

@@ -239,6 +239,8 @@ TEST(CustomCode, RefusesWithLineAndReason) {
         {1, "whole ends", "uniform int a = 2; // [0.5, 3]\n" + ok},
         {2, "constant", "uniform float b;\nuniform float a = b;\n" + ok},
         {1, "lipschitz", "const float lipschitz = -1.0;\n" + ok},
+        {2, "belongs to the constant", "\nuniform float lipschitz = 1.0;\n" + ok},
+        {3, "lipschitz", "\n\nconst float lipschitz = 0.0;\n" + ok},
         {1, "lipschitz", "const vec2 lipschitz = vec2(1.0);\n" + ok},
     };
     for (const Refusal& refusal : refusals) {
