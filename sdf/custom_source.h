@@ -49,7 +49,7 @@ public:
     int lines() const;
     const std::vector<CustomUniform>& uniforms() const { return uniforms_; }
     const Names& globals() const { return globals_; }  ///< of functions too
-    int first_line(std::string_view name) const;  ///< where the name stands first; 1 where it does not
+    int first_line(std::string_view name) const;       ///< where the name stands first; 1 where it does not
     /// Names that are used but not declared globally: local names, built-in functions and those of the shape library.
     Names foreign_names() const;
 

@@ -1,6 +1,7 @@
 // Custom code without a GPU: what it declares, what is refused and where, and its values.
 #include "sdf/custom_code.h"
 
+#include "sdf/custom_lipschitz.h"
 #include "sdf/shape_library.h"
 #include "tests/test_support.h"
 
@@ -49,8 +50,7 @@ float body(const std::string& statements) {
 
 float value(const std::string& expression) { return body("return " + expression + ";"); }
 
-// ---- declarations
-// ----------------------------------------------------------------------------------------------------
+// ---- declarations --------------------------------------------------------------------------------------------------
 
 TEST(CustomCode, UniformsAreParameters) {
     const auto code = parse(
@@ -129,8 +129,7 @@ TEST(CustomCode, LipschitzIsOneUnlessDeclared) {
     EXPECT_EQ(parse("const float lipschitz = 3.0 / 2.0;\nfloat sdf(vec3 p) { return p.x; }")->lipschitz(), 1.5f);
 }
 
-// ---- what is refused
-// ---------------------------------------------------------------------------------------------------
+// ---- what is refused -----------------------------------------------------------------------------------------------
 
 struct Refusal {
     int line;
@@ -275,8 +274,7 @@ TEST(CustomCode, ReportsAllUnknownLoopsAtOnce) {
     EXPECT_EQ(parsed.errors[1].line, 4);
 }
 
-// ---- the text for the GPU
-// ------------------------------------------------------------------------------------------------
+// ---- the text for the GPU ------------------------------------------------------------------------------------------
 
 TEST(CustomCode, GlslKeepsLinesAndComments) {
     const auto code = parse(
@@ -312,8 +310,7 @@ TEST(CustomCode, MessagesNameWhatTheUserWrote) {
     EXPECT_NE(parsed.errors[0].message.find("'box'"), std::string::npos) << parsed.errors[0].message;
 }
 
-// ---- values
-// --------------------------------------------------------------------------------------------------------------
+// ---- values --------------------------------------------------------------------------------------------------------
 
 TEST(CustomCodeValues, Arithmetic) {
     EXPECT_EQ(value("p.x + p.y * p.z - p.z / p.y"), 5.5f);
@@ -345,6 +342,8 @@ TEST(CustomCodeValues, Vectors) {
     EXPECT_EQ(body("v.xz = v.zx; v.yw += 1.0; return dot(v, vec4(1, 10, 100, 1000));"), 5133.0f);
     EXPECT_EQ(body("v.zxy = v.xyz; return dot(v, vec4(1, 10, 100, 1000));"), 4132.0f);
     EXPECT_EQ(body("v.yzw = v.xyz; return dot(v, vec4(1, 10, 100, 1000));"), 3211.0f);
+    EXPECT_EQ(body("vec2 w = (v.yz = v.xy); return dot(v, vec4(1, 10, 100, 1000)) + dot(w, vec2(1e4, 1e5));"),
+              214211.0f);
     EXPECT_EQ(body("v.wzyx.xy *= 2.0; return dot(v, vec4(1, 10, 100, 1000));"), 8621.0f);
     EXPECT_EQ(body("for (int k = 0; k < 4; ++k) v[k] = v[3 - k] * float(k); return dot(v, vec4(1, 10, 100, 1000));"),
               630.0f);
@@ -516,8 +515,22 @@ TEST(CustomCodeValues, BuiltInFunctions) {
     EXPECT_EQ(body("float whole; float part = modf(-p.z * 0.5, whole); return whole * 10.0 + part;"), -10.5f);
 }
 
-// ---- robustness
-// ----------------------------------------------------------------------------------------------------------
+// ---- steepness -----------------------------------------------------------------------------------------------------
+
+TEST(CustomCodeLipschitz, EstimateComesCloseFromBelow) {
+    const std::pair<const char*, float> cases[] = {{"length(p) - 0.5", 1.0f},
+                                                   {"2.0 * p.x - p.y", std::sqrt(5.0f)},
+                                                   {"max(abs(p.x), p.y * 1.5)", 1.5f},
+                                                   {"sin(p.x * 5.0) / 5.0 + 0.2 * sin(p.y * 5.0)", std::sqrt(2.0f)}};
+    for (const auto& [expression, expected] : cases) {
+        const auto code = parse(fmt::format("float sdf(vec3 p) {{ return {}; }}", expression));
+        const float estimate = estimate_lipschitz(*code, glm::vec3(-2.0f), glm::vec3(2.0f), {});
+        EXPECT_LE(estimate, expected * 1.001f) << expression;
+        EXPECT_GE(estimate, expected * 0.97f) << expression;
+    }
+}
+
+// ---- robustness ----------------------------------------------------------------------------------------------------
 
 /// Texts with everything in them, to be mutated.
 const char* const originals[] = {
