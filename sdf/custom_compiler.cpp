@@ -11,6 +11,7 @@ namespace custom {
 namespace {
 
 constexpr std::size_t deepest_call = 60;
+constexpr double longest_unrolled = 32.0 * 26.0;  ///< as in Mesa's nir_opt_loop_unroll
 
 /// Ends a function's compilation without a message of its own.
 struct CallsBroken {};
@@ -82,8 +83,8 @@ private:
                                                  "allowed",
                                                  f.operations, most_operations)});
         else if (f.inlined > longest_inlined)
-            errors_.push_back({line, fmt::format("with all calls inlined sdf has {:.0f} operations, at most {:.0f} are "
-                                                 "allowed",
+            errors_.push_back({line, fmt::format("with calls inlined and short loops unrolled the code has {:.0f} "
+                                                 "operations, at most {:.0f} are allowed",
                                                  f.inlined, longest_inlined)});
     }
 
@@ -178,6 +179,7 @@ private:
         const LoopSteps steps = ranges_.steps(node, before, most_repetitions);
         const double outside = factor_;
         factor_ *= steps.count + 1.0;
+        const double inlined = current_->inlined;
         const int free = next_temporary_, start = here();
         const std::size_t leave = emit({.operation = O::jump_if_false, .a = expression(node->getTest()).at});
         next_temporary_ = free;
@@ -195,6 +197,9 @@ private:
         land(breaks_.back());
         breaks_.pop_back(), continues_.pop_back();
         factor_ = outside;
+        if (const double body = current_->inlined - inlined;
+            steps.count <= 32.0 && steps.count * body <= longest_unrolled)
+            current_->inlined = inlined + std::max(steps.count, 1.0) * body;
     }
 
     void switch_statement(TIntermSwitch* node) {

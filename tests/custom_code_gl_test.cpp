@@ -3,7 +3,7 @@
 #include "renderer/gl.h"
 #include "sdf/custom_code.h"
 #include "sdf/shape_library.h"
-#include "tests/test_support.h"
+#include "tests/custom_code_samples.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -245,6 +245,20 @@ TEST_F(CustomCodeOnGpu, AgreesWithTheCpu) {
             }
             EXPECT_LE(beyond, 2) << "worst " << worst << " at " << where.x << ", " << where.y << ", " << where.z;
         }
+    }
+}
+
+/// What glslang takes and the checks let pass must not be refused by the driver.
+TEST_F(CustomCodeOnGpu, WhatIsAcceptedCompiles) {
+    points_.resize(1);
+    int accepted = 0;
+    for (unsigned seed = 10'000; accepted < 20; ++seed) {
+        const std::string text = mutated_code(seed);
+        const auto parsed = CustomCode::parse(text);
+        if (!parsed.code) continue;
+        ++accepted;
+        const std::vector<std::string> arguments(parsed.code->parameters().size(), "1.0");
+        EXPECT_NO_THROW(gpu_values(*parsed.code, arguments, points_)) << text;
     }
 }
 

@@ -3,7 +3,7 @@
 
 #include "sdf/custom_lipschitz.h"
 #include "sdf/shape_library.h"
-#include "tests/test_support.h"
+#include "tests/custom_code_samples.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -532,20 +532,6 @@ TEST(CustomCodeLipschitz, EstimateComesCloseFromBelow) {
 
 // ---- robustness ----------------------------------------------------------------------------------------------------
 
-/// Texts with everything in them, to be mutated.
-const char* const originals[] = {
-    "uniform float radius = 0.5; // [0, 2] m Radius\nuniform int n = 3; // [1, 6]\nstruct S { vec3 c; float r[2]; "
-    "};\nconst float k[3] = float[3](1.0, 2.0, 3.0);\n"
-    "float f(inout S s, vec3 p) { s.r[1] += 1.0; return length(p - s.c) - s.r[0] * k[2]; }\n"
-    "float sdf(vec3 p) {\n    float d = 1e6;\n    for (int i = 0; i < n; ++i) {\n        S s = S(vec3(float(i)), "
-    "float[2](radius, 1.0));\n        d = min(d, f(s, p.zyx * 2.0));\n"
-    "        if (d < 0.0 && i > 1) break;\n        p[i % 3] *= 0.5;\n    }\n    switch (n) { case 1: d += 1.0; break; "
-    "default: d -= 0.5; }\n    return d > 0.0 ? d : smooth_union(d, box(p, vec3(0.3)), 0.1);\n}\n",
-    "mat3 turn(float a) { return mat3(cos(a), 0, -sin(a), 0, 1, 0, sin(a), 0, cos(a)); }\nfloat sdf(vec3 p) { mat3 m = "
-    "turn(p.y) * 2.0; ivec3 c = ivec3(floor(p)); uvec2 h = uvec2(c.xy) * 7u ^ 3u;\n"
-    "    vec4 v = vec4(p * m, float(h.x % 16u)); v.xz = v.zx - 1.0; v.w = fract(sin(v.w) * 43758.5); return "
-    "length(v.xyz) / 3.0 - float(c.x << 2 & 5) + mod(v.w, 0.3); }\n"};
-
 /// Parses, and evaluates what is accepted; the outcome does not matter, that there is one does.
 bool survives(const std::string& text) {
     const auto parsed = CustomCode::parse(text);
@@ -568,57 +554,18 @@ bool survives(const std::string& text) {
 }
 
 TEST(CustomCodeFuzz, MutatedTextsEndWithCodeOrErrors) {
-    static const char* const words[] = {"0",    "-1",     "2147483647", "0x80000000", "1e39",    "(",
-                                        ")",    "{",      "}",          "[",          "]",       ";",
-                                        ",",    "for",    "if",         "else",       "float",   "int",
-                                        "uint", "vec3",   "mat4",       "struct",     "const",   "uniform",
-                                        "out",  "return", "break",      "continue",   "case 1:", "default:",
-                                        "p",    "d",      "i",          "n",          "sdf",     "=",
-                                        "+=",   "<",      "%",          "/",          "<<",      "++",
-                                        "?",    ":",      ".",          "&&",         "^^",      "!",
-                                        "~",    "[i]",    ".zyx",       "p.xy",       "while",   "#",
-                                        "\\",   "//",     "/*",         "\n",         "s",       "float[2](1.0, 2.0)"};
     int accepted = 0;
     const int count = 3000;
-    for (int seed = 0; seed < count; ++seed) {
+    for (unsigned seed = 0; seed < count; ++seed) {
         SCOPED_TRACE(fmt::format("seed {}", seed));
-        std::mt19937 random(static_cast<unsigned>(seed));
-        std::string text = originals[seed % 2];
-        for (unsigned i = 1 + random() % 2; i > 0; --i) {
-            const auto is_word = [](unsigned char c) { return std::isalnum(c) || c == '_'; };
-            std::size_t first = random() % text.size(), last = first + 1;
-            if (is_word(text[first])) {
-                while (first > 0 && is_word(text[first - 1])) --first;
-                while (last < text.size() && is_word(text[last])) ++last;
-            }
-            const std::string word = words[random() % std::size(words)];
-            const std::size_t other = random() % text.size();
-            switch (random() % 5) {
-                case 0:
-                    text.replace(first, last - first, word);
-                    break;
-                case 1:
-                    text.insert(first, " " + word + " ");
-                    break;
-                case 2:
-                    text.erase(first, last - first);
-                    break;
-                case 3:
-                    text.insert(first, text.substr(other, random() % 60));
-                    break;
-                default:
-                    text[first] = static_cast<char>(text[first] ^ (1 << random() % 8));
-                    break;
-            }
-        }
-        accepted += survives(text);
+        accepted += survives(mutated_code(seed));
     }
     EXPECT_GT(accepted, count / 50);
     EXPECT_LT(accepted, count / 2);
 }
 
 TEST(CustomCodeFuzz, EveryTruncationEnds) {
-    const std::string text = originals[0];
+    const std::string text = custom_code_samples[0];
     for (std::size_t length = 1; length < text.size(); ++length) survives(text.substr(0, length));
 }
 
@@ -643,14 +590,14 @@ TEST(CustomCodeFuzz, LargestTextsEndSoon) {
 }
 
 TEST(CustomCode, ParsesAndEvaluatesOnSeveralThreads) {
-    const auto shared = parse(originals[0]);
+    const auto shared = parse(custom_code_samples[0]);
     const float expected = shared->evaluate({1, 2, 3}, {});
     std::atomic<int> wrong = 0;
     std::vector<std::thread> threads;
     for (int t = 0; t < 4; ++t)
         threads.emplace_back([&] {
             for (int i = 0; i < 20; ++i) {
-                const auto own = CustomCode::parse(originals[0]);
+                const auto own = CustomCode::parse(custom_code_samples[0]);
                 if (!own.code || own.code->evaluate({1, 2, 3}, {}) != expected) ++wrong;
                 if (shared->evaluate({1, 2, 3}, {}) != expected) ++wrong;
             }
