@@ -1,5 +1,5 @@
 // The one truth for distance, blend and domain functions, with operations.glsl. Compiled as GLSL (the functions a scene
-// uses are copied into its program) and, through GLM, as C++ (node_kinds.cpp), so that CPU and GPU cannot drift apart.
+// uses are copied into its program) and, through GLM, as C++ (kind_table.h), so that CPU and GPU cannot drift apart.
 // Both languages accept this: literals with f, vec2(p.x, p.z) for swizzles, no out parameters, no overloads. A function
 // calls only those before it; operations.glsl follows this file.
 //
