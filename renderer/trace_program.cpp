@@ -50,7 +50,7 @@ std::string trace_source(const GeneratedScene& generated) {
     } else if (count > 0) {
         text += "float parameter(int i) { return parameter_block[i >> 2][i & 3]; }\n";
     }
-    text += fmt::format("void load_parameters() {{\n{}}}\n", load);
+    text += fmt::format("void load_parameters() {{\n{}}}\nconst bool flat_field = {};\n", load, generated.flat);
     return text + fmt::format("#line 1 {}\n", generated_file) + generated.text + kernel.substr(own);
 }
 

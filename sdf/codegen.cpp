@@ -421,6 +421,11 @@ constexpr const char* live_helpers =
     "12);\n"
     "}\n";
 
+bool is_flat(const FieldNode& n) {
+    return n.kind->stretch || (n.kind->role == Role::primitive && !n.kind->exact) ||
+           std::any_of(n.children.begin(), n.children.end(), is_flat);
+}
+
 }  // namespace
 
 GeneratedScene generate(const Scene& scene, Tier tier, Id tuned) {
@@ -446,6 +451,7 @@ GeneratedScene generate(const Scene& scene, Tier tier, Id tuned) {
     generated.parameters = std::move(block.values);
     generated.line_nodes = std::move(all.nodes);
     generated.bounds = tree.bounds();
+    generated.flat = tree.root && is_flat(*tree.root);
     return generated;
 }
 

@@ -26,6 +26,8 @@ struct GeneratedScene {
     std::vector<float> parameters;
     /// For each line of `text`, from the first, the node it belongs to; 0 where it belongs to none.
     std::vector<Id> line_nodes;
+    /// Whether the field can be much flatter than the distance: bounds of stretched space, some primitives.
+    bool flat = false;
     /// Box around all surfaces, world frame; a ray outside meets nothing.
     Box bounds;
 };

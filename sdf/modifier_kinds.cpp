@@ -148,6 +148,7 @@ void add_modifiers(std::vector<KindInfo>& t) {
     repeat_kind.domain = repeat;
     repeat_kind.cells = repeat_cells;
     repeat_kind.image = repeat_image;
+    repeat_kind.function_takes_derived = true;
     repeat_kind.derived = {{"cells", "Copies along each axis that can be nearest", ParameterType::count},
                            {"centre", "Middle of one copy", vector, metres}};
     repeat_kind.derive = derive_repeat;
@@ -161,6 +162,7 @@ void add_modifiers(std::vector<KindInfo>& t) {
     polar.cells = [](Values v) { return shapes::polar_repeat_cells(v[0].x, v[1].x, v[2].x); };
     polar.secondary = "polar_repeat_cells";
     polar.image = [](const Extent& content, Values) { return around_y(content); };
+    polar.function_takes_derived = true;
     polar.derived = {{"cells", "Copies that can be nearest", number},
                      {"centre", "Angle at which one copy has its middle", number}};
     polar.derive = derive_polar_repeat;
@@ -221,12 +223,13 @@ void add_modifiers(std::vector<KindInfo>& t) {
         image.box = image.box.valid();
         return image;
     };
+    taper.function_takes_derived = true;
     taper.derived = {{"narrowest", "Least width along the content's height", number},
-                     {"reach", "How far the result reaches from the axis", number, metres}};
+                     {"reach", "How far the content reaches from the axis", number, metres}};
     taper.derive = [](const Extent& content, Values v, std::span<glm::vec3> derived) {
         const glm::vec2 range = widths(content.box, v[0].x);
         derived[0].x = range.x;
-        derived[1].x = std::min(reach(content.box, 0, 2) * range.y, unbounded);
+        derived[1].x = reach(content.box, 0, 2);
     };
     taper.stretch = [](Values v) { return shapes::taper_stretch(v[0].x, v[1].x, v[2].x); };
     taper.confined = true;

@@ -147,8 +147,10 @@ struct KindInfo {
     Gather gather;             ///< the others
     float (*reach)(Values v);  ///< how much the level rises for the children (for each after the first), or null: 0
 
-    // What follows from parameters and content; further arguments of `secondary` and of the function of a repeat.
+    // What follows from parameters and content; further arguments of `secondary`, and of `function` where it needs
+    // them.
     std::vector<Parameter> derived;
+    bool function_takes_derived;
     void (*derive)(const Extent& content, Values v, std::span<glm::vec3> derived);
     /// How much steps are shortened at most, to be safe: the Lipschitz constant of the field before `secondary` divides
     /// by it, where the content is; null: 1.

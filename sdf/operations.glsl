@@ -299,23 +299,29 @@ float taper_width(float y, float rate) {
     return clamp(1.0f + rate * y, 0.05f, 20.0f);
 }
 
-// Makes the content wider or narrower as it goes up.
-vec3 taper(vec3 p, float rate) {
+// Makes the content wider or narrower as it goes up. What lies further from the axis than the content reaches is evaluated at
+// its edge: out there the map stretches more and more.
+vec3 taper(vec3 p, float rate, float narrowest, float reach) {
     float width = taper_width(p.y, rate);
-    return vec3(p.x / width, p.y, p.z / width);
+    float inwards = 1.0f / max(width, length(vec2(p.x, p.z)) / max(reach, 1e-9f));
+    return vec3(p.x * inwards, p.y, p.z * inwards);
 }
 
 // The norm of (1 / narrowest, slope; 0, 1), the derivative of taper where it is largest: content narrowest there, and
-// `reach` from the axis, where the width changes with height by slope = reach |rate| / narrowest².
+// `reach` from the axis, where the width changes with height by slope = reach |rate| / narrowest.
 float taper_stretch(float rate, float narrowest, float reach) {
     float a = 1.0f / narrowest;
-    float b = reach * abs(rate) * a * a;
+    float b = reach * abs(rate) * a;
     float sum = a * a + b * b + 1.0f;
     return sqrt(0.5f * (sum + sqrt(max(sum * sum - 4.0f * a * a, 0.0f))));
 }
 
+// The content keeps within a frustum of slope k = reach |rate|. How far p is out of it, measured across, grows by up to
+// sqrt(1 + k²); the content's distance at its edge does not depend on how far, so taper_stretch holds there too.
 float taper_distance(float d, vec3 p, float rate, float narrowest, float reach) {
-    return d / taper_stretch(rate, narrowest, reach);
+    float k = reach * abs(rate);
+    float outside = length(vec2(p.x, p.z)) - reach * taper_width(p.y, rate);
+    return max(d / taper_stretch(rate, narrowest, reach), outside / sqrt(1.0f + k * k));
 }
 
 // Scales each axis by a factor of its own. Along the axis of the smallest one distances shrink by that much.

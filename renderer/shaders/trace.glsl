@@ -14,7 +14,11 @@ uniform int counting;        // 1: add to the counters
 uniform vec3 scene_low;      // all surfaces lie within this box
 uniform vec3 scene_high;
 
-const int step_limit = 256;
+// A field that is flatter than the distance (GeneratedScene::flat) falls below the tolerance long before the surface, so that
+// shapes would grow fat: there the tolerance shrinks with the field's slope along the ray. That costs 4 to 7 % and is left
+// out elsewhere; it needs more steps, too.
+const float least_slope = flat_field ? 0.1 : 1.0;
+const int step_limit = flat_field ? 512 : 256;
 const float beta = 0.5;
 const float near_enough = 30.0;  // epsilons: three pixels of a camera ray
 const float smallest_epsilon = 1e-5;
@@ -51,7 +55,7 @@ void main() {
             t = next;
             radius = d;
             epsilon = max(smallest_epsilon, max(ray.footprint * t, spacing + 2.5e-7 * t));
-            found = d < epsilon;
+            found = d < epsilon * clamp(-slope, least_slope, 1.0);
         } else {
             slope = -1.0;
         }
