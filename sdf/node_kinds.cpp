@@ -518,6 +518,11 @@ std::vector<KindInfo> make_table() {
     round.distance = modify<shapes::inflate>;
     round.reach = whole_radius;
     t.push_back(round);
+
+    t.push_back(make_modifier(K::instance, "instance", "Instance",
+                              "A definition, shown here as if it were copied; materials that it leaves open are the "
+                              "instance's",
+                              Role::instance, true, {}, ""));
     return t;
 }
 

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <map>
 #include <random>
@@ -34,22 +33,11 @@ struct Small {
     ObjectRef node(Id id) const { return {ObjectType::node, id}; }
 };
 
-void visit(const Node& node, const std::function<void(const Node&)>& f) {
-    f(node);
-    for (const Node& child : node.children) visit(child, f);
-}
-
-std::vector<Id> all_nodes(const Scene& scene) {
-    std::vector<Id> ids;
-    visit(scene.root, [&](const Node& node) { ids.push_back(node.id); });
-    return ids;
-}
-
 /// Any edit, sensible or not: ids that exist and ids that do not, names that are free and names that are taken.
 Edit random_edit(const Scene& scene, std::mt19937& random) {
     const auto pick = [&](std::size_t count) { return static_cast<int>(random() % count); };
     const auto any_node = [&] {
-        const std::vector<Id> ids = all_nodes(scene);
+        const std::vector<Id> ids = all_ids(scene);
         return pick(20) == 0 ? Id{99999} : ids[pick(ids.size())];
     };
     const auto any_kind = [&] { return node_kinds()[pick(node_kinds().size())].kind; };
@@ -57,8 +45,17 @@ Edit random_edit(const Scene& scene, std::mt19937& random) {
     const auto any_light = [&] {
         return scene.lights.empty() ? Id{77777} : scene.lights[pick(scene.lights.size())].id;
     };
+    const auto any_definition = [&] {
+        return scene.definitions.empty() ? any_node() : scene.definitions[pick(scene.definitions.size())].id;
+    };
+    const auto any_instance = [&] {
+        std::vector<Id> instances;
+        for (const Id id : all_ids(scene))
+            if (find_node(scene, id)->kind == NodeKind::instance) instances.push_back(id);
+        return instances.empty() ? any_node() : instances[pick(instances.size())];
+    };
     const std::string name = std::string(1, static_cast<char>('a' + pick(6)));
-    switch (pick(12)) {
+    switch (pick(15)) {
         case 0: {
             const ObjectRef objects[] = {{ObjectType::node, any_node()},
                                          {ObjectType::material, any_material()},
@@ -83,6 +80,10 @@ Edit random_edit(const Scene& scene, std::mt19937& random) {
             return SetMaterial{any_node(), any_material()};
         case 5: {
             Node node = make_node(any_kind());
+            if (node.kind == NodeKind::instance || pick(6) == 0) {
+                node = make_node(NodeKind::instance);
+                node.definition = any_definition();
+            }
             node.name = pick(2) ? name : "";
             return InsertNode{any_node(), pick(6) - 1, node};
         }
@@ -96,6 +97,12 @@ Edit random_edit(const Scene& scene, std::mt19937& random) {
             return RemoveMaterial{any_material()};
         case 10:
             return AddLight{{0, name}};
+        case 11:
+            return SetDefinition{pick(3) ? any_instance() : any_node(), any_definition()};
+        case 12:
+            return MakeDefinition{any_node()};
+        case 13:
+            return MakeIndependent{pick(3) ? any_instance() : any_node()};
         default:
             return RemoveLight{any_light()};
     }
@@ -242,7 +249,7 @@ TEST(Edit, EveryResultIsAValidScene) {
         if (i % 10 == 0) {
             ASSERT_NO_THROW(parse_scene(to_text(scene), "memory")) << to_text(scene);
         }
-        if (count_nodes(scene.root) > 60) scene = random_scene(static_cast<unsigned>(i), 12);
+        if (count_nodes(scene) > 60) scene = random_scene(static_cast<unsigned>(i), 12);
     }
     EXPECT_GT(carried_out, 1000);
 }
@@ -269,7 +276,7 @@ TEST(History, UndoAllRestoresTheStartAndRedoAllTheEnd) {
 TEST(History, IdsAreNeverReused) {
     History history;
     std::set<Id> seen;
-    for (const Id id : all_nodes(history.scene())) seen.insert(id);
+    for (const Id id : all_ids(history.scene())) seen.insert(id);
     for (int i = 0; i < 20; ++i) {
         const Id id = history.apply(InsertNode{history.scene().root.id, -1, make_node(NodeKind::sphere)});
         EXPECT_TRUE(seen.insert(id).second) << "id " << id;
