@@ -42,7 +42,7 @@ std::string with_names(const std::string& code, const std::vector<std::string>& 
         text += code.substr(from, at - from);
         for (from = at + 1; from < code.size() && code[from] >= '0' && code[from] <= '9'; ++from)
             number = 10 * number + static_cast<std::size_t>(code[from] - '0');
-        text += names.at(number);
+        text += from > at + 1 && number < names.size() ? names[number] : code.substr(at, from - at);
     }
     return text + code.substr(from);
 }
@@ -79,6 +79,7 @@ struct Lines {
 std::vector<std::string> code_names(const std::vector<FieldNode>& definitions) {
     std::vector<std::string> names;
     std::set<std::string> taken{"scene", "no"};  // scene_distance, no_surface
+    std::map<std::string, int> numbers;
     for (const FieldNode& definition : definitions) {
         constexpr std::size_t longest = 40;
         std::string name;
@@ -93,8 +94,9 @@ std::vector<std::string> code_names(const std::vector<FieldNode>& definitions) {
         if (name.empty() || (name[0] >= '0' && name[0] <= '9') || name.starts_with("gl_"))
             name = name.empty() ? "part" : "part_" + name;
         std::string free = name;
-        for (int i = 2; !taken.insert(free).second || is_shape(free + "_distance") || is_shape(free + "_surface"); ++i)
-            free = fmt::format("{}_{}", name, i);
+        int& number = numbers[name];
+        while (!taken.insert(free).second || is_shape(free + "_distance") || is_shape(free + "_surface"))
+            free = fmt::format("{}_{}", name, number++ + 2);
         names.push_back(free);
     }
     return names;

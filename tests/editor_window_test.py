@@ -295,6 +295,8 @@ def define_and_free(editor):
     editor.key("ctrl+shift+i")
     report = editor.wait("a copy", lambda r: r["selection"] == "Sphere 2")
     check(report["error"] == "", f"no error, not: {report['error']}")
+    editor.key("ctrl+s")
+    editor.wait("saved", lambda r: r["saved"])
 
 
 def show_error(editor, bad):

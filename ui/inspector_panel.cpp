@@ -152,7 +152,10 @@ void inspect_node(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
         ImGui::TextDisabled("Nothing inside yet: it shows once it holds a shape. Press + Add, or drag nodes onto it.");
         ImGui::PopTextWrapPos();
     }
-    if (node.id != scene.root.id) delete_button(ui, scene, "Delete node", true, edits);
+    if (find_definition(scene, node.id))
+        delete_button(ui, scene, "Delete definition", count_uses(scene, node.id) == 0, edits);
+    else if (node.id != scene.root.id)
+        delete_button(ui, scene, "Delete node", true, edits);
 }
 
 void inspect_material(Ui& ui, const Scene& scene, const Material& material, Edits& edits) {
