@@ -5,6 +5,7 @@
 #include "sdf/codegen.h"
 #include "sdf/fields.h"
 #include "sdf/scene_file.h"
+#include "sdf/scene_schema.h"
 
 #include <fmt/format.h>
 
@@ -18,23 +19,10 @@
 namespace farfield {
 namespace {
 
-bool has_extension(const std::filesystem::path& file, const char* extension) {
+bool has_extension(const std::filesystem::path& file, std::string_view extension) {
     std::string text = file.extension().string();
     std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
     return text == extension;
-}
-
-/// Before a long render, not after it.
-void check_outputs(const std::vector<std::filesystem::path>& outputs) {
-    for (const std::filesystem::path& file : outputs) {
-        if (!has_extension(file, ".exr") && !has_extension(file, ".png"))
-            throw std::invalid_argument(
-                fmt::format("--output: \"{}\" given, expected a name that ends in .exr or .png", file.string()));
-        const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
-        if (!std::filesystem::is_directory(folder))
-            throw ImageError(
-                fmt::format("{}: cannot be written: there is no folder {}", file.string(), folder.string()));
-    }
 }
 
 void write_outputs(Renderer& renderer, const std::vector<std::filesystem::path>& outputs, View view) {
@@ -73,6 +61,21 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
+void check_output(const std::filesystem::path& file, std::initializer_list<std::string_view> extensions) {
+    if (std::none_of(extensions.begin(), extensions.end(), [&](auto e) { return has_extension(file, e); }))
+        throw std::invalid_argument(fmt::format("--output: \"{}\" given, expected a name that ends in {}",
+                                                file.string(), fmt::join(extensions, " or ")));
+    const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+    if (!std::filesystem::is_directory(folder))
+        throw ImageError(fmt::format("{}: cannot be written: there is no folder {}", file.string(), folder.string()));
+}
+
+std::string option_name(std::string_view key) {
+    std::string option = fmt::format("--{}", key);
+    std::replace(option.begin(), option.end(), '_', '-');
+    return option;
+}
+
 void Overrides::apply(Settings& settings) const {
     for (const auto& [key, text] : values) {
         for (const Field<Settings>& field : fields<Settings>()) {
@@ -83,20 +86,21 @@ void Overrides::apply(Settings& settings) const {
                 for (std::size_t i = 0; i < field.parameter.choices.size(); ++i)
                     if (text == field.parameter.choices[i]) value.x = static_cast<float>(i), read = true;
             } else {
-                const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value.x);
-                read = error == std::errc() && end == text.data() + text.size() &&
-                       why_refused(field.parameter, value).empty();
+                const char* start = text.data() + (text.starts_with('+') && !text.starts_with("+-") ? 1 : 0);
+                const char* stop = text.data() + text.size();
+                const auto [end, error] = std::from_chars(start, stop, value.x);
+                read = error == std::errc() && end == stop && why_refused(field.parameter, value).empty();
             }
             if (!read)
                 throw std::invalid_argument(
-                    fmt::format("{}: \"{}\" given, expected {}", key, text, expectation(field.parameter)));
+                    fmt::format("{}: \"{}\" given, expected {}", option_name(key), text, expectation(field.parameter)));
             field.set(settings, value);
         }
     }
 }
 
 int run_render(const RenderOptions& options) {
-    check_outputs(options.outputs);
+    for (const std::filesystem::path& file : options.outputs) check_output(file, {".exr", ".png"});
     Headless headless(options.scene, options.overrides, options.context);
     Renderer& renderer = *headless.renderer;
     FrameOptions frame;
@@ -120,6 +124,11 @@ int run_render(const RenderOptions& options) {
 
 int run_glsl(const GlslOptions& options) {
     fmt::print("{}", generate(load_scene(options.scene), options.live ? Tier::live : Tier::specialised).text);
+    return 0;
+}
+
+int run_schema() {
+    fmt::print("{}", scene_schema());
     return 0;
 }
 

@@ -10,11 +10,20 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace farfield {
+
+/// Throws std::invalid_argument for another extension (written in small letters) and ImageError where there is no such
+/// folder: before a long render, not after it.
+void check_output(const std::filesystem::path& file, std::initializer_list<std::string_view> extensions);
+
+/// What a setting is called on the command line: "--ao-radius" for "ao_radius".
+std::string option_name(std::string_view key);
 
 /// Settings given on the command line; those not given are the scene's own.
 struct Overrides {
@@ -50,6 +59,9 @@ struct BenchOptions {
     Overrides overrides;
 };
 int run_bench(const BenchOptions& options);
+
+/// Prints the scene format's JSON Schema.
+int run_schema();
 
 int run_check(const std::filesystem::path& scene);
 

@@ -5,6 +5,7 @@
 #include "app/file_actions.h"
 #include "app/layout.h"
 #include "app/window.h"
+#include "sdf/scene_file.h"
 #include "ui/tree_panel.h"
 
 #include <fmt/format.h>
@@ -12,6 +13,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -35,6 +37,12 @@ Theme theme_for(const Window& window) {
     const Theme theme = make_theme(window.density());
     ImGui::GetIO().FontGlobalScale = 1.0f / window.pixels_per_unit().x;
     return theme;
+}
+
+/// Looking around is no work on the scene, though undo covers it.
+bool moves_camera(const Edit& edit) {
+    const auto* set = std::get_if<SetValue>(&edit);
+    return set && set->object.type == ObjectType::camera;
 }
 
 class Editor {
@@ -79,10 +87,11 @@ private:
     }
 
     void frame() {
-        window_.begin_frame();
+        window_.begin_frame(keyboard_changes_hands());
         ui_.report.begin_frame();
-        // A gesture lasts while something is held or typed into; every other frame may begin a new one.
-        if (!held_) {
+        // A gesture lasts while one thing is held or typed into; every other frame may begin a new one.
+        if (const ImGuiID holder = ImGui::GetActiveID(); !held_ || holder != holder_) {
+            holder_ = holder;
             gesture_ = ++last_gesture_;
             gesture_edited_ = gesture_moves_ = false;
         }
@@ -98,7 +107,8 @@ private:
                                                  [&](CommandId id) { return enabled(id); });
         carry_out(result.edits, gesture_);
         carry_out_camera(result.viewport);
-        if (result.dismissed) files_.show_error("");
+        if (std::exchange(save_, false)) files_.save();
+        if (result.dismissed) files_.dismiss();
         if (result.command) perform(*result.command);
         files_.draw(ui_);
         if (document_.generation() != shown_document_) show_new_document();
@@ -108,6 +118,13 @@ private:
         window_.set_title(fmt::format("{}{} - Farfield", document_.saved() ? "" : "* ", document_.name()));
         window_.end_frame();
         submit(result.viewport.size);
+    }
+
+    /// A field that was given the keyboard has it in the frame after the next.
+    bool keyboard_changes_hands() const {
+        const ImGuiContext& g = *ImGui::GetCurrentContext();
+        const bool moving = g.NavMoveSubmitted && (g.NavMoveFlags & ImGuiNavMoveFlags_Tabbing);
+        return ui_.focus_name || files_.wants_keyboard() || moving;
     }
 
     void show_new_document() {
@@ -138,6 +155,7 @@ private:
                 const ObjectRef next = selection_after(edit);
                 const Id id = document_.apply(edit, gesture);
                 gesture_edited_ = true;
+                if (!moves_camera(edit)) files_.edit_succeeded();
                 // Settings are no object in the scene that could be followed quicker at a lower resolution, which would
                 // discard the samples that most of them keep.
                 const auto* set = std::get_if<SetValue>(&edit);
@@ -146,11 +164,11 @@ private:
                 if (std::holds_alternative<InsertNode>(edit) || std::holds_alternative<MakeDefinition>(edit) ||
                     std::holds_alternative<MakeIndependent>(edit))
                     ui_.selection = {ObjectType::node, ui_.reveal = id};
-                if (std::holds_alternative<AddMaterial>(edit)) ui_.selection = {ObjectType::material, id};
-                if (std::holds_alternative<AddLight>(edit)) ui_.selection = {ObjectType::light, id};
+                if (std::holds_alternative<AddMaterial>(edit)) ui_.selection = {ObjectType::material, ui_.reveal = id};
+                if (std::holds_alternative<AddLight>(edit)) ui_.selection = {ObjectType::light, ui_.reveal = id};
                 if (const auto* moved = std::get_if<MoveNode>(&edit)) ui_.reveal = moved->node;
             } catch (const EditError& error) {
-                files_.show_error(error.what());
+                files_.edit_failed(error.what());
             }
         }
     }
@@ -221,9 +239,11 @@ private:
                 break;
             case CommandId::undo:
                 document_.undo();
+                files_.edit_succeeded();
                 break;
             case CommandId::redo:
                 document_.redo();
+                files_.edit_succeeded();
                 break;
             case CommandId::add:
                 ui_.open_add = true;
@@ -252,6 +272,9 @@ private:
             case CommandId::statistics:
                 ui_.show_statistics = !ui_.show_statistics;
                 break;
+            case CommandId::code:
+                ui_.show_code = !ui_.show_code;
+                break;
             case CommandId::shortcuts:
                 ui_.show_shortcuts = !ui_.show_shortcuts;
                 break;
@@ -266,7 +289,10 @@ private:
             const auto command = command_for(press);
             const bool busy = ImGui::GetIO().WantTextInput || (held_ && ImGui::IsAnyMouseDown());
             if (asked || (busy && command != CommandId::save)) continue;
-            if (const auto view = view_for(press))
+            if (command == CommandId::save && ImGui::GetIO().WantTextInput) {
+                ImGui::ClearActiveID();  // what is being typed belongs to what is saved
+                save_ = true;
+            } else if (const auto view = view_for(press))
                 ui_.view = *view;
             else if (command && enabled(*command))
                 perform(*command);
@@ -296,10 +322,20 @@ private:
     }
 
     void write_report() {
-        ui_.report.write(
-            {picture_.statistics, document_.revision(), pictures_, document_.saved(), document_.file().string(),
-             files_.error().empty() ? picture_.error : files_.error(), selection_name()},
-            seconds());
+        CodePanel::Lines lines;
+        if (ui_.show_code && ui_.report.on()) lines = layout_.code().lines();
+        ui_.report.write({.statistics = picture_.statistics,
+                          .revision = document_.revision(),
+                          .pictures = pictures_,
+                          .saved = document_.saved(),
+                          .file = document_.file().string(),
+                          .error = files_.error().empty() ? picture_.error : files_.error(),
+                          .selection = selection_name(),
+                          .code = ui_.show_code,
+                          .code_lines = lines.count,
+                          .selected_lines = lines.selected,
+                          .inside_lines = lines.inside},
+                         seconds());
     }
 
     // In order of life: the renderer's context goes before the window it shares with.
@@ -315,6 +351,8 @@ private:
     unsigned last_gesture_ = 0, gesture_ = 0, wheel_gesture_ = 0;
     double wheel_until_ = 0.0;
     bool held_ = false;            ///< some control has the mouse or the keyboard
+    ImGuiID holder_ = 0;           ///< which
+    bool save_ = false;            ///< once the panels have handed in what was being typed
     bool gesture_edited_ = false;  ///< and has changed the document
     bool gesture_moves_ = false;   ///< and more of it than settings
     bool interacting_ = false;
@@ -326,8 +364,15 @@ private:
 }  // namespace
 
 int run_editor(const EditorOptions& options) {
-    Editor editor(options);
-    editor.run();
+    std::optional<Editor> editor;
+    try {
+        editor.emplace(options);
+    } catch (const ContextError&) {
+        // Without a window nobody sees what is wrong with the scene, and that is the easier thing to mend.
+        if (!options.scene.empty()) load_scene(options.scene);
+        throw;
+    }
+    editor->run();
     return 0;
 }
 

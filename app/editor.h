@@ -11,7 +11,8 @@ struct EditorOptions {
     int width = 1440, height = 900;
 };
 
-/// Runs until the window is closed; returns the exit status. Throws ContextError when no window can be opened.
+/// Runs until the window is closed; returns the exit status. Throws ContextError when no window can be opened,
+/// or before that what is wrong with the scene.
 int run_editor(const EditorOptions& options);
 
 }  // namespace farfield

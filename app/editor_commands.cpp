@@ -39,6 +39,7 @@ constexpr Command commands[] = {
     {CommandId::make_definition, "Edit", "make_definition", "Make definition", 'I', ctrl, "Ctrl+I", true},
     {CommandId::make_independent, "Edit", "make_independent", "Make independent", 'I', ctrl | shift, "Ctrl+Shift+I"},
     {CommandId::statistics, "View", "statistics", "Statistics", GLFW_KEY_F3, plain, "F3", true},
+    {CommandId::code, "View", "code", "Code", GLFW_KEY_F4, plain, "F4"},
     {CommandId::shortcuts, "Help", "shortcuts", "Keys and mouse", GLFW_KEY_F1, plain, "F1"},
 };
 
@@ -53,10 +54,12 @@ constexpr std::pair<const char*, const char*> mouse[] = {
     {"Right-click a value", "Back to its default"},
     {"Drag a node in the tree", "Re-order, or move into another"},
     {"Right-click a node", "What can be done with it"},
+    {"Click a line of code", "Select its node; drag to select text"},
 };
 
 bool is_on(const Ui& ui, CommandId id) {
-    return (id == CommandId::statistics && ui.show_statistics) || (id == CommandId::shortcuts && ui.show_shortcuts);
+    return (id == CommandId::statistics && ui.show_statistics) || (id == CommandId::code && ui.show_code) ||
+           (id == CommandId::shortcuts && ui.show_shortcuts);
 }
 
 void view_entries(Ui& ui) {
@@ -66,6 +69,20 @@ void view_entries(Ui& ui) {
         ui.report.item("menu/view", view.key);
         tooltip(ui, view.tip);
     }
+}
+
+/// What the menu's other end has: the one panel that is not always there.
+bool code_switch(Ui& ui) {
+    const float width = ImGui::CalcTextSize("Code").x + 2.0f * ImGui::GetStyle().ItemSpacing.x;
+    const float left = ImGui::GetWindowWidth() - width;
+    if (left < ImGui::GetCursorPosX()) return false;
+    ImGui::SetCursorPosX(left);
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.show_code ? ui.theme.accent : ui.theme.text);
+    const bool pressed = ImGui::MenuItem("Code");
+    ImGui::PopStyleColor();
+    ui.report.item("menu", "code");
+    tooltip(ui, "The GLSL that the scene comes to, with the lines of what is selected", "F4");
+    return pressed;
 }
 
 void table_line(const Ui& ui, const char* left, const char* right) {
@@ -111,6 +128,7 @@ std::optional<CommandId> command_menus(Ui& ui, const std::function<bool(CommandI
         }
         ImGui::EndMenu();
     }
+    if (code_switch(ui)) chosen = CommandId::code;
     return chosen;
 }
 

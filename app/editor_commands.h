@@ -25,6 +25,7 @@ enum class CommandId {
     move_down,
     make_definition,
     make_independent,
+    code,
     statistics,
     shortcuts,
 };

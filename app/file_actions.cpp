@@ -53,7 +53,7 @@ void FileActions::load(const std::filesystem::path& file) {
         document_.open(file);
         error_.clear();
     } catch (const SceneFileError& error) {
-        error_ = error.what();
+        fail(Failed::open, error.what());
     }
 }
 
@@ -63,7 +63,7 @@ bool FileActions::write(const std::filesystem::path& file) {
         error_.clear();
         return true;
     } catch (const SceneFileError& error) {
-        error_ = error.what();
+        fail(Failed::save, error.what());
         return false;
     }
 }

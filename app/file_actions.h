@@ -24,12 +24,24 @@ public:
     void draw(Ui& ui);
 
     bool quits() const { return quits_; }
-    /// Shown until the next action or until dismissed.
+    bool wants_keyboard() const { return dialog_.wants_keyboard(); }
+    /// Shown until what it is about has gone well, or until dismissed.
     const std::string& error() const { return error_; }
-    void show_error(std::string error) { error_ = std::move(error); }
+    void dismiss() { error_.clear(); }
+    void edit_failed(std::string error) { fail(Failed::edit, std::move(error)); }
+    /// The document was changed: whoever goes on working has seen what could not be done. Unsaved work is another
+    /// matter.
+    void edit_succeeded() {
+        if (failed_ != Failed::save) error_.clear();
+    }
 
 private:
     using Action = std::function<void()>;
+    enum class Failed { edit, open, save };
+    void fail(Failed what, std::string error) {
+        failed_ = what;
+        error_ = std::move(error);
+    }
 
     /// Does it at once, or after the user agreed to lose or save what is unsaved.
     void unless_unsaved(Action action);
@@ -43,6 +55,7 @@ private:
     Action after_save_;
     bool ask_ = false, quits_ = false;
     std::string error_;
+    Failed failed_ = Failed::edit;  ///< what the error is about
 };
 
 }  // namespace farfield

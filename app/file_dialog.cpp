@@ -17,7 +17,7 @@ constexpr const char* extension = ".json";
 
 void FileDialog::show(Mode mode, const fs::path& start) {
     mode_ = mode;
-    request_ = focus_ = true;
+    request_ = focus_ = picked_ = true;
     accepted_ = confirm_ = false;
     std::error_code failed;
     fs::path from = start.empty() ? fs::current_path(failed) : fs::absolute(start, failed);
@@ -111,8 +111,9 @@ void FileDialog::draw_entries(Ui& ui) {
         if (ImGui::Selectable(label.c_str(), text_ == entry.name,
                               ImGuiSelectableFlags_AllowDoubleClick | ImGuiSelectableFlags_DontClosePopups)) {
             const bool twice = ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left);
+            focus_ = true;  // Enter accepts what was picked
             if (!entry.folder)
-                text_ = entry.name, accepted_ = twice, confirm_ = false;
+                text_ = entry.name, accepted_ = twice, picked_ = true, confirm_ = false;
             else if (twice)
                 wanted = entry.name;
         }
@@ -131,17 +132,26 @@ std::optional<fs::path> FileDialog::draw(Ui& ui) {
     request_ = false;
     const ImVec2 centre = ImGui::GetMainViewport()->GetCenter();
     ImGui::SetNextWindowPos(centre, ImGuiCond_Appearing, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize({ui.theme.px(620.0f), ui.theme.px(430.0f)}, ImGuiCond_Appearing);
-    if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_NoSavedSettings)) return std::nullopt;
+    const ImVec2 room = ImGui::GetMainViewport()->WorkSize;
+    ImGui::SetNextWindowSizeConstraints({0.0f, 0.0f}, room);
+    ImGui::SetNextWindowSize({std::min(ui.theme.px(620.0f), room.x), std::min(ui.theme.px(430.0f), room.y)},
+                             ImGuiCond_Appearing);
+    if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_NoSavedSettings)) {
+        focus_ = false;
+        return std::nullopt;
+    }
 
     draw_path_bar(ui);
     draw_entries(ui);
     if (focus_) ImGui::SetKeyboardFocusHere();
     focus_ = false;
     ImGui::SetNextItemWidth(-FLT_MIN);
+    // A name that nobody typed gives way to the first key.
     const bool entered =
-        ImGui::InputTextWithHint("##path", "File name or path", &text_, ImGuiInputTextFlags_EnterReturnsTrue);
-    if (ImGui::IsItemEdited()) confirm_ = false, problem_.clear();
+        ImGui::InputTextWithHint("##path", "File name or path", &text_,
+                                 ImGuiInputTextFlags_EnterReturnsTrue |
+                                     (picked_ ? ImGuiInputTextFlags_AutoSelectAll : ImGuiInputTextFlags_None));
+    if (ImGui::IsItemEdited()) confirm_ = picked_ = false, problem_.clear();
     accepted_ |= entered;
     ui.report.item("dialog", "path");
     ImGui::PushStyleColor(ImGuiCol_Text, confirm_ ? ui.theme.accent : ui.theme.error);
@@ -166,7 +176,10 @@ std::optional<fs::path> FileDialog::draw(Ui& ui) {
         result = accept();
         focus_ = !result;
     }
-    if (result || cancelled) ImGui::CloseCurrentPopup();
+    if (result || cancelled) {
+        focus_ = false;
+        ImGui::CloseCurrentPopup();
+    }
     ImGui::EndPopup();
     return cancelled ? std::nullopt : result;
 }

@@ -18,6 +18,8 @@ public:
     void show(Mode mode, const std::filesystem::path& start);
     /// Draws the dialog while it is shown. The path, once the user has settled on one.
     std::optional<std::filesystem::path> draw(Ui& ui);
+    /// The field for the path is about to get the keyboard.
+    bool wants_keyboard() const { return request_ || focus_; }
 
 private:
     struct Entry {
@@ -33,6 +35,7 @@ private:
 
     Mode mode_ = Mode::open;
     bool request_ = false, focus_ = false, accepted_ = false, confirm_ = false;
+    bool picked_ = false;  ///< the text comes from the list, not from the keyboard
     std::filesystem::path folder_;
     std::string text_;
     std::string problem_;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 namespace farfield {
 namespace {
@@ -29,16 +30,22 @@ void InputQueue::move(ImVec2 to) {
         events_.push_back({Kind::move, 0, 0, 0, 0, to});
 }
 
-std::vector<KeyPress> InputQueue::deliver(GLFWwindow* window) {
+void InputQueue::button(int button, int action) {
+    if (button < 0 || button >= buttons) return;
+    events_.push_back({Kind::button, button, 0, action, 0, {}, glfwGetTime()});
+}
+
+std::vector<KeyPress> InputQueue::deliver(GLFWwindow* window, bool hold_keys) {
     std::vector<KeyPress> pressed;
     std::vector<int> keys;
-    unsigned buttons = 0;
+    unsigned changed = 0;
     bool moved = false;
     for (; !events_.empty(); events_.pop_front()) {
         const Event& e = events_.front();
         // What follows a click belongs to the next frame, and so does the release of any key after a press: that of
         // Ctrl would turn Ctrl+A into A.
-        if (buttons != 0 && e.kind != Kind::button) break;
+        if (changed != 0 && e.kind != Kind::button) break;
+        if (hold_keys && (e.kind == Kind::key || e.kind == Kind::character)) break;
         if (e.kind == Kind::key) {
             if (e.action == GLFW_RELEASE ? !pressed.empty() : std::find(keys.begin(), keys.end(), e.code) != keys.end())
                 break;
@@ -50,11 +57,15 @@ std::vector<KeyPress> InputQueue::deliver(GLFWwindow* window) {
         } else if (e.kind == Kind::character) {
             ImGui_ImplGlfw_CharCallback(window, static_cast<unsigned>(e.code));
         } else if (e.kind == Kind::button) {
-            if (e.code < 0 || e.code >= static_cast<int>(std::size(down_))) continue;
             // A drag begins where the mouse stood and ends where it went: the way there has a frame of its own.
-            if (moved || (buttons & (1u << e.code))) break;
-            buttons |= 1u << e.code;
+            if (moved || (changed & (1u << e.code))) break;
+            changed |= 1u << e.code;
             down_[e.code] = e.action == GLFW_PRESS;
+            if (!down_[e.code]) continue;
+            // Two presses are a double-click when they came close together, however long the frames between them took.
+            ImGuiIO& io = ImGui::GetIO();
+            const bool close = e.time - std::exchange(pressed_[e.code], e.time) < io.MouseDoubleClickTime;
+            io.MouseClickedTime[e.code] = close ? ImGui::GetTime() + 1.0 : -1e9;
         } else if (e.kind == Kind::move) {
             mouse_ = e.position;
             moved = true;

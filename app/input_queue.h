@@ -26,14 +26,14 @@ public:
         events_.push_back({Kind::key, key, scancode, action, modifiers, {}});
     }
     void character(unsigned code) { events_.push_back({Kind::character, static_cast<int>(code), 0, 0, 0, {}}); }
-    void button(int button, int action) { events_.push_back({Kind::button, button, 0, action, 0, {}}); }
+    void button(int button, int action);
     void move(ImVec2 to);
     void scroll(ImVec2 by) { events_.push_back({Kind::scroll, 0, 0, 0, 0, by}); }
 
     bool empty() const { return events_.empty(); }
     /// Hands the next events to ImGui; to be called between the backends' NewFrame and ImGui's. Returns the keys that
-    /// went down.
-    std::vector<KeyPress> deliver(GLFWwindow* window);
+    /// went down. With `hold_keys` keys wait, and what comes after them.
+    std::vector<KeyPress> deliver(GLFWwindow* window, bool hold_keys);
 
 private:
     enum class Kind { key, character, button, move, scroll };
@@ -41,11 +41,14 @@ private:
         Kind kind;
         int code, scancode, action, modifiers;
         ImVec2 position;
+        double time = 0.0;  ///< of a button: when it arrived, seconds
     };
+    static constexpr int buttons = 5;  ///< that ImGui knows
 
     std::deque<Event> events_;
     ImVec2 mouse_{-1e6f, -1e6f};
-    bool down_[5] = {};
+    bool down_[buttons] = {};
+    double pressed_[buttons] = {};  ///< when each went down last
 };
 
 }  // namespace farfield

@@ -17,6 +17,7 @@ namespace {
 template <class Draw>
 void panel(const char* name, ImVec2 low, ImVec2 size, Draw draw) {
     ImGui::SetCursorScreenPos(low);
+    size = {std::max(size.x, 1.0f), std::max(size.y, 1.0f)};  // to ImGui, nothing means all that is left
     ImGui::BeginChild(name, size, false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
     draw();
     ImGui::EndChild();
@@ -27,7 +28,7 @@ void panel(const char* name, ImVec2 low, ImVec2 size, Draw draw) {
 float message_bar(Ui& ui, ImVec2 low, float width, const std::string& message, bool can_dismiss, bool& dismissed) {
     if (message.empty()) return 0.0f;
     const float pad = ui.theme.px(10.0f), button = can_dismiss ? ui.theme.px(76.0f) + pad : 0.0f;
-    const float room = width - 2.0f * pad - button;
+    const float room = std::max(width - 2.0f * pad - button, 1.0f);
     const ImVec2 text = ImGui::CalcTextSize(message.c_str(), nullptr, false, room);
     // A compiler's message can be long: some lines of it are shown, the rest scrolls.
     const float lines = std::min(text.y, 8.0f * ImGui::GetTextLineHeight()) + 1.0f;
@@ -80,6 +81,17 @@ void status_line(const Ui& ui, ImVec2 low, ImVec2 size, const Document& document
     draw.AddText(font, font->FontSize, {low.x + size.x - width - pad, y}, ui.theme.dim, right.c_str());
 }
 
+/// Whole pixels, at least `least` and, before that, at most `most`: in a window that is too small for what the user
+/// chose, panels get smaller and never lie on each other.
+float within(float wanted, float least, float most) {
+    return std::floor(std::max(1.0f, std::min(std::max(wanted, least), most)));
+}
+
+/// A splitter of a panel that is `now` wide or high; what the user makes of it is kept in `chosen`.
+void split(Ui& ui, const char* id, ImVec2 low, ImVec2 extent, float now, float sign, float& chosen) {
+    if (const float moved = splitter(ui, id, low, extent); moved != 0.0f) chosen = now + sign * moved;
+}
+
 void append(Edits& to, Edits from) {
     to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }
@@ -87,36 +99,63 @@ void append(Edits& to, Edits from) {
 }  // namespace
 
 Layout::Layout(const Theme& theme)
-    : left_(theme.px(250.0f)), right_(theme.px(336.0f)), objects_(theme.px(238.0f)), settings_(theme.px(246.0f)) {}
+    : left_(theme.px(250.0f)),
+      right_(theme.px(336.0f)),
+      objects_(theme.px(238.0f)),
+      settings_(theme.px(246.0f)),
+      code_width_(theme.px(660.0f)),
+      code_height_(theme.px(330.0f)) {}
 
-void Layout::draw_panels(Ui& ui, ImVec2 low, ImVec2 size, const Scene& scene, const RenderedPicture& picture,
+void Layout::draw_panels(Ui& ui, ImVec2 low, ImVec2 size, const Document& document, const RenderedPicture& picture,
                          const std::string& message, LayoutResult& result) {
+    const Scene& scene = document.scene();
     const float bar = ui.theme.px(5.0f), least = ui.theme.px(110.0f);
-    left_ = std::floor(std::clamp(left_, ui.theme.px(190.0f), size.x * 0.38f));
-    right_ = std::floor(std::clamp(right_, ui.theme.px(290.0f), std::max(size.x * 0.45f, ui.theme.px(290.0f))));
-    objects_ = std::floor(std::clamp(objects_, least, std::max(size.y - least, least)));
-    settings_ = std::floor(std::clamp(settings_, least, std::max(size.y - least, least)));
-    const float right_x = low.x + size.x - right_;
-    const float tree_height = size.y - objects_ - bar, inspector_height = size.y - settings_ - bar;
+    const float columns = size.x - 2.0f * bar, rows = size.y - bar;
+    const float left = within(left_, ui.theme.px(190.0f), columns * 0.36f);
+    const float right = within(right_, ui.theme.px(290.0f), columns * 0.42f);
+    const float objects = within(objects_, least, std::max(rows - least, rows * 0.5f));
+    const float settings = within(settings_, least, std::max(rows - least, rows * 0.5f));
+    const float right_x = low.x + size.x - right;
+    const float tree_height = rows - objects, inspector_height = rows - settings;
 
-    panel("tree", low, {left_, tree_height}, [&] { append(result.edits, tree_panel(ui, scene)); });
-    panel("objects", {low.x, low.y + tree_height + bar}, {left_, objects_},
+    panel("tree", low, {left, tree_height}, [&] { append(result.edits, tree_panel(ui, scene)); });
+    panel("objects", {low.x, low.y + tree_height + bar}, {left, objects},
           [&] { append(result.edits, objects_panel(ui, scene)); });
-    const ImVec2 middle{low.x + left_ + bar, low.y};
-    const float width = size.x - left_ - right_ - 2.0f * bar;
-    // A message about the document can be put away; one about the picture stays as long as it is true.
-    const float covered = message.empty() ? message_bar(ui, middle, width, picture.error, false, result.dismissed)
-                                          : message_bar(ui, middle, width, message, true, result.dismissed);
-    panel("viewport", middle, {width, size.y}, [&] { result.viewport = viewport(ui, scene, picture, covered); });
-    panel("inspector", {right_x, low.y}, {right_, inspector_height},
+    draw_middle(ui, {low.x + left + bar, low.y}, {columns - left - right, size.y}, document, picture, message, result);
+    panel("inspector", {right_x, low.y}, {right, inspector_height},
           [&] { append(result.edits, inspector_panel(ui, scene)); });
-    panel("settings", {right_x, low.y + inspector_height + bar}, {right_, settings_},
+    panel("settings", {right_x, low.y + inspector_height + bar}, {right, settings},
           [&] { append(result.edits, settings_panel(ui, scene)); });
 
-    left_ += splitter(ui, "left", {low.x + left_, low.y}, {bar, size.y});
-    right_ -= splitter(ui, "right", {right_x - bar, low.y}, {bar, size.y});
-    objects_ -= splitter(ui, "objects", {low.x, low.y + tree_height}, {left_, bar});
-    settings_ -= splitter(ui, "settings", {right_x, low.y + inspector_height}, {right_, bar});
+    split(ui, "left", {low.x + left, low.y}, {bar, size.y}, left, 1.0f, left_);
+    split(ui, "right", {right_x - bar, low.y}, {bar, size.y}, right, -1.0f, right_);
+    split(ui, "objects", {low.x, low.y + tree_height}, {left, bar}, objects, -1.0f, objects_);
+    split(ui, "settings", {right_x, low.y + inspector_height}, {right, bar}, settings, -1.0f, settings_);
+}
+
+void Layout::draw_middle(Ui& ui, ImVec2 low, ImVec2 size, const Document& document, const RenderedPicture& picture,
+                         const std::string& message, LayoutResult& result) {
+    ImVec2 room = size;
+    if (ui.show_code) {
+        // Beside the picture where both can be wide, otherwise below it: a line of code has some ninety characters.
+        const float bar = ui.theme.px(5.0f), least = ui.theme.px(120.0f);
+        const auto draw = [&] { code_.draw(ui, document.scene(), document.revision()); };
+        if (size.x >= ui.theme.px(1100.0f)) {
+            const float width = within(code_width_, least, size.x - bar - least);
+            room.x = size.x - width - bar;
+            panel("code", {low.x + room.x + bar, low.y}, {width, size.y}, draw);
+            split(ui, "code", {low.x + room.x, low.y}, {bar, size.y}, width, -1.0f, code_width_);
+        } else {
+            const float height = within(code_height_, least, std::max(size.y - bar - least, size.y * 0.5f));
+            room.y = size.y - height - bar;
+            panel("code", {low.x, low.y + room.y + bar}, {size.x, height}, draw);
+            split(ui, "code", {low.x, low.y + room.y}, {size.x, bar}, height, -1.0f, code_height_);
+        }
+    }
+    // A message about the document can be put away; one about the picture stays as long as it is true.
+    const float covered = message.empty() ? message_bar(ui, low, room.x, picture.error, false, result.dismissed)
+                                          : message_bar(ui, low, room.x, message, true, result.dismissed);
+    panel("viewport", low, room, [&] { result.viewport = viewport(ui, document.scene(), picture, covered); });
 }
 
 LayoutResult Layout::draw(Ui& ui, ImVec2 size, const Document& document, const RenderedPicture& picture,
@@ -137,8 +176,7 @@ LayoutResult Layout::draw(Ui& ui, ImVec2 size, const Document& document, const R
     }
     const ImVec2 low{0.0f, ImGui::GetFrameHeight()};
     const float status = ui.theme.px(22.0f);
-    draw_panels(ui, low, {size.x, std::max(size.y - low.y - status, ui.theme.px(300.0f))}, document.scene(), picture,
-                message, result);
+    draw_panels(ui, low, {size.x, std::max(size.y - low.y - status, 1.0f)}, document, picture, message, result);
     status_line(ui, {0.0f, size.y - status}, {size.x, status}, document, picture);
     ImGui::End();
     return result;

@@ -4,6 +4,7 @@
 #include "app/editor_commands.h"
 #include "app/document.h"
 #include "app/viewport.h"
+#include "ui/code_panel.h"
 
 #include <optional>
 #include <string>
@@ -25,12 +26,20 @@ public:
     LayoutResult draw(Ui& ui, ImVec2 size, const Document& document, const RenderedPicture& picture,
                       const std::string& message, const std::function<bool(CommandId)>& enabled);
 
+    const CodePanel& code() const { return code_; }
+
 private:
-    void draw_panels(Ui& ui, ImVec2 low, ImVec2 size, const Scene& scene, const RenderedPicture& picture,
+    void draw_panels(Ui& ui, ImVec2 low, ImVec2 size, const Document& document, const RenderedPicture& picture,
+                     const std::string& message, LayoutResult& result);
+    /// The picture, and the code where it is shown.
+    void draw_middle(Ui& ui, ImVec2 low, ImVec2 size, const Document& document, const RenderedPicture& picture,
                      const std::string& message, LayoutResult& result);
 
+    CodePanel code_;
+    // What the user chose; a small window may have no room for it.
     float left_, right_;        ///< widths of the columns
     float objects_, settings_;  ///< heights of their lower panels
+    float code_width_, code_height_;
 };
 
 }  // namespace farfield

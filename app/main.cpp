@@ -1,5 +1,6 @@
 // The command line: `farfield [SCENE]` opens the editor, the subcommands work without a window.
 #include "app/commands.h"
+#include "app/contact_sheet.h"
 #include "app/editor.h"
 #include "renderer/gl.h"
 #include "renderer/image.h"
@@ -9,44 +10,118 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
 #include <cstdio>
+#include <cstring>
+#include <iostream>
 
 namespace farfield {
 namespace {
 
+[[noreturn]] void refuse(const std::string& option, const std::string& found, const std::string& expected) {
+    throw CLI::ValidationError(option, fmt::format("\"{}\" given, expected {}", found, expected));
+}
+
+/// All of the text as a whole number, with a sign or without.
+template <class T>
+bool read_whole(std::string_view text, T& value) {
+    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size();
+}
+
 /// "768x512" to a size; throws CLI::ValidationError.
-glm::ivec2 parse_size(const std::string& text) {
+glm::ivec2 parse_size(std::string_view text) {
+    constexpr int longest = 16384;
+    // One for each pixel of an 8K screen: 6 GB of accumulators, and no buffer beyond what 31 bits can address.
+    constexpr std::int64_t most = 8192 * 4096;
     glm::ivec2 size{0};
-    char rest = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%c", &size.x, &size.y, &rest) != 2 || size.x < 1 || size.y < 1 ||
-        size.x > 16384 || size.y > 16384)
-        throw CLI::ValidationError("--size",
-                                   fmt::format("\"{}\" given, expected WIDTHxHEIGHT, each between 1 and 16384", text));
+    const std::size_t cross = text.find('x');
+    const bool read = cross != std::string_view::npos && read_whole(text.substr(0, cross), size.x) &&
+                      read_whole(text.substr(cross + 1), size.y);
+    if (!read || size.x < 1 || size.y < 1 || size.x > longest || size.y > longest)
+        refuse("--size", std::string(text), fmt::format("WIDTHxHEIGHT, each between 1 and {}", longest));
+    if (static_cast<std::int64_t>(size.x) * size.y > most)
+        refuse("--size", std::string(text), fmt::format("at most {} pixels, as 8192x4096", most));
     return size;
 }
 
-/// Options shared by commands that render. One option for each setting comes from the settings table.
-void add_common(CLI::App& command, glm::ivec2& size, ContextKind& context, Overrides& overrides) {
+/// An option for a whole number.
+template <class T>
+void add_whole(CLI::App& command, const std::string& option, T& to, T low, T high, const std::string& help) {
+    const auto read = [=, &to](const std::string& text) {
+        T value = 0;
+        if (!read_whole(text, value) || value < low || value > high)
+            refuse(option, text, fmt::format("a whole number between {} and {}", low, high));
+        to = value;
+    };
+    command.add_option_function<std::string>(option, read, help)->type_name("NUMBER");
+}
+
+constexpr std::pair<const char*, ContextKind> contexts[] = {
+    {"auto", ContextKind::automatic}, {"egl", ContextKind::egl}, {"osmesa", ContextKind::osmesa}};
+
+/// Options of every command that renders.
+void add_device(CLI::App& command, const char* pixels, glm::ivec2& size, ContextKind& context) {
     command
         .add_option_function<std::string>(
             "--size", [&](const std::string& text) { size = parse_size(text); },
-            fmt::format("Pixels, default {}x{}", size.x, size.y))
+            fmt::format("{}, default {}x{}", pixels, size.x, size.y))
         ->type_name("WxH");
-    command.add_option("--context", context, "Where OpenGL comes from")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, ContextKind>{
-            {"auto", ContextKind::automatic}, {"egl", ContextKind::egl}, {"osmesa", ContextKind::osmesa}}))
+    command
+        .add_option_function<std::string>(
+            "--context",
+            [&](const std::string& text) {
+                for (const auto& [name, kind] : contexts)
+                    if (text == name) return void(context = kind);
+                refuse("--context", text, "auto, egl or osmesa");
+            },
+            "Where OpenGL comes from, default auto")
         ->type_name("auto|egl|osmesa");
+}
+
+/// The same for commands that render a scene. One option for each setting comes from the settings table.
+void add_common(CLI::App& command, glm::ivec2& size, ContextKind& context, Overrides& overrides) {
+    add_device(command, "Pixels", size, context);
     for (const Field<Settings>& field : fields<Settings>()) {
         const Parameter& p = field.parameter;
-        std::string option = fmt::format("--{}", p.key);
-        std::replace(option.begin(), option.end(), '_', '-');
         command
             .add_option_function<std::string>(
-                option,
+                option_name(p.key),
                 [&overrides, key = p.key](const std::string& text) { overrides.values.emplace_back(key, text); },
                 fmt::format("{} (default: the scene's)", p.tip))
             ->type_name(p.choices.empty() ? "NUMBER" : fmt::format("{}", fmt::join(p.choices, "|")));
     }
+}
+
+/// "--size: 1 required WxH missing", as CLI11 has it, in the words of the other messages.
+std::string nothing_given(std::string message) {
+    constexpr std::string_view required = "1 required ", missing = " missing";
+    if (const std::size_t at = message.find(required); at != std::string::npos && message.ends_with(missing)) {
+        message.resize(message.size() - missing.size());
+        message.replace(at, required.size(), "nothing given, expected ");
+    }
+    return message;
+}
+
+/// To stderr, which may be full as well: that is no reason to fail in another way.
+template <class... Arguments>
+void complain(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+    std::fputs(fmt::format(format, std::forward<Arguments>(arguments)...).c_str(), stderr);
+}
+
+/// Whether stdout took everything: a full disk shows when the buffer is emptied, not before.
+void check_written() {
+    if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return;
+    throw std::runtime_error(fmt::format("the output cannot be written: {}", std::strerror(errno)));
+}
+
+std::string command_names(CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+    return fmt::format("{}", fmt::join(names, ", "));
 }
 
 int run(int argc, char** argv) {
@@ -70,9 +145,8 @@ int run(int argc, char** argv) {
         ->allow_extra_args(false)  // one for each -o, so that the scene may follow
         ->required()
         ->type_name("IMAGE");
-    render_command->add_option("--frames", render.frames, "Frames to accumulate, default 16")
-        ->check(CLI::Range(1, 1'000'000));
-    render_command->add_option("--seed", render.seed, "Another seed gives another noise, default 0");
+    add_whole(*render_command, "--frames", render.frames, 1, 1'000'000, "Frames to accumulate, default 16");
+    add_whole(*render_command, "--seed", render.seed, 0u, ~0u, "Another seed gives another noise, default 0");
     std::string view_names;
     for (const ViewInfo& v : views()) view_names += (view_names.empty() ? "" : "|") + std::string(v.key);
     render_command
@@ -80,9 +154,7 @@ int run(int argc, char** argv) {
             "--view",
             [&](const std::string& key) {
                 const auto found = find_view(key);
-                if (!found)
-                    throw CLI::ValidationError("--view",
-                                               fmt::format("\"{}\" given, expected one of {}", key, view_names));
+                if (!found) refuse("--view", key, "one of " + view_names);
                 render.view = *found;
             },
             "What the picture shows, default result")
@@ -98,35 +170,68 @@ int run(int argc, char** argv) {
     CLI::App* check_command = app.add_subcommand("check", "Validate a scene file");
     check_command->add_option("SCENE", check_scene, "Scene file")->required();
 
+    CLI::App* schema_command = app.add_subcommand("schema", "Print the JSON Schema of scene files");
+
     BenchOptions bench;
     CLI::App* bench_command = app.add_subcommand("bench", "Time per pass, evaluations per ray, compile time");
     bench_command->add_option("SCENE", bench.scene, "Scene file")->required();
-    bench_command->add_option("--frames", bench.frames, "Frames to measure, default 5")->check(CLI::Range(1, 10'000));
+    add_whole(*bench_command, "--frames", bench.frames, 1, 10'000, "Frames to measure, default 5");
     bench_command->add_flag("--live", bench.live, "Also the tier that reads its numbers from a parameter block");
     add_common(*bench_command, bench.size, bench.context, bench.overrides);
 
+    ContactSheetOptions sheet;
+    CLI::App* sheet_command = app.add_subcommand("contact-sheet", "Render every kind of node into one picture");
+    sheet_command->add_option("-o,--output", sheet.output, "PNG or JPEG")->required()->type_name("IMAGE");
+    add_device(*sheet_command, "Pixels for each kind", sheet.tile, sheet.context);
+    add_whole(*sheet_command, "--columns", sheet.columns, 1, 100, "Kinds in a row, default 8");
+    sheet_command->add_option("--only", sheet.only, "These kinds alone, by their keys in scene files")
+        ->type_name("KEY");
+    add_whole(*sheet_command, "--frames", sheet.frames, 1, 1'000'000, "Frames to accumulate, default 16");
+
     try {
         app.parse(argc, argv);
-    } catch (const CLI::Success& e) {
-        return app.exit(e);
-    } catch (const CLI::ParseError& e) {
-        app.exit(e);
+        int status = 0;
+        if (*render_command)
+            status = run_render(render);
+        else if (*glsl_command)
+            status = run_glsl(glsl);
+        else if (*check_command)
+            status = run_check(check_scene);
+        else if (*schema_command)
+            status = run_schema();
+        else if (*sheet_command)
+            status = run_contact_sheet(sheet);
+        else if (*bench_command)
+            status = run_bench(bench);
+        else
+            status = run_editor(editor);
+        check_written();
+        return status;
+    } catch (const CLI::Success& help) {
+        app.exit(help);
+        if (std::cout.flush()) return 0;
+        complain("farfield: the output cannot be written: {}\n", std::strerror(errno));
+        return 1;
+    } catch (const CLI::ExtrasError& error) {
+        if (app.get_subcommands().empty() && !editor.scene.empty() && !std::filesystem::exists(editor.scene))
+            complain("\"{}\" given, expected {} or one scene file\n", editor.scene.string(), command_names(app));
+        else
+            app.exit(error);
         return 2;
-    }
-    try {
-        if (*render_command) return run_render(render);
-        if (*glsl_command) return run_glsl(glsl);
-        if (*check_command) return run_check(check_scene);
-        if (*bench_command) return run_bench(bench);
-        return run_editor(editor);
+    } catch (const CLI::ArgumentMismatch& error) {
+        complain("{}\nRun with --help for more information.\n", nothing_given(error.what()));
+        return 2;
+    } catch (const CLI::ParseError& error) {
+        app.exit(error);
+        return 2;
     } catch (const SceneFileError& error) {
-        fmt::print(stderr, "{}\n", error.what());
+        complain("{}\n", error.what());
         return 2;
     } catch (const std::invalid_argument& error) {
-        fmt::print(stderr, "{}\n", error.what());
+        complain("{}\n", error.what());
         return 2;
     } catch (const std::exception& error) {
-        fmt::print(stderr, "farfield: {}\n", error.what());
+        complain("farfield: {}\n", error.what());
         return 1;
     }
 }

@@ -71,7 +71,7 @@ ViewportResult viewport(Ui& ui, const Scene& scene, const RenderedPicture& pictu
     }
     if (ui.show_statistics && picture.texture != 0)
         statistics_overlay(ui, picture.statistics, {high.x - margin, low.y + covered + margin},
-                           size.y - covered - 2.0f * margin);
+                           {size.x - 2.0f * margin, size.y - covered - 2.0f * margin});
     return result;
 }
 

@@ -138,10 +138,10 @@ bool Window::wait(double seconds) {
     return std::exchange(input_.arrived, false) || !input_.queue.empty();
 }
 
-void Window::begin_frame() {
+void Window::begin_frame(bool hold_keys) {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
-    keys_ = input_.queue.deliver(window_);
+    keys_ = input_.queue.deliver(window_, hold_keys);
     ImGui::NewFrame();
 }
 

@@ -28,7 +28,8 @@ public:
 
     /// Waits for input, `seconds` at most. True when something arrived since the last call.
     bool wait(double seconds);
-    void begin_frame();
+    /// `hold_keys`: a field is about to get the keyboard; what is typed meanwhile is for that.
+    void begin_frame(bool hold_keys);
     void end_frame();
 
     void set_title(const std::string& title);

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string_view>
 
 namespace farfield {
 namespace {
@@ -28,6 +29,10 @@ void write(const fs::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDesc typ
     if (!output->open(temporary.string(), spec)) fail(output->geterror());
     if (!output->write_image(type, data)) fail(output->geterror());
     if (!output->close()) fail(output->geterror());
+    // The PNG writer says nothing of a full disk; a file that can be read has reached it.
+    if (OIIO::ImageBuf written(temporary.string());
+        std::string_view(output->format_name()) == "png" && !written.read(0, 0, true))
+        fail("the disk may be full");
     std::error_code error;
     fs::rename(temporary, file, error);
     if (error) fail(error.message());

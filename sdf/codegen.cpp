@@ -141,7 +141,7 @@ public:
         if (!fresh) return place->second;
         for (std::size_t i = 0; i < n.kind->derived.size(); ++i)
             add(n.kind->derived[i], n.values[n.kind->parameters.size() + i]);
-        if (n.kind->stretch) add(n.region.low), add(n.region.high);
+        if (n.kind->confined) add(n.region.low), add(n.region.high);
         return place->second;
     }
 
@@ -290,7 +290,7 @@ private:
             numbers.derived += ", " + (live ? read(parameter, at) : written(parameter, v));
             at += static_cast<std::size_t>(parameter.components());
         }
-        if (!n.kind->stretch) return;
+        if (!n.kind->confined) return;
         if (live)
             numbers.low = fmt::format("parameter3({})", at), numbers.high = fmt::format("parameter3({})", at + 3);
         else if (n.region.is_bounded(0) || n.region.is_bounded(1) || n.region.is_bounded(2))
@@ -438,13 +438,16 @@ private:
 
     Result domain(const FieldNode& n, const Numbers& num, const std::string& p, int id, Lines& out,
                   const std::string& indent) {
-        const std::string moved = fmt::format("q{}", id);
-        std::string nearest = p;
+        std::string nearest = p, moved = p;
         if (!num.low.empty()) {
             nearest = fmt::format("c{}", id);
             out.add(fmt::format("{}vec3 {} = clamp({}, {}, {});", indent, nearest, p, num.low, num.high), n.id);
         }
-        out.add(fmt::format("{}vec3 {} = {}({}{});", indent, moved, n.kind->function, nearest, num.arguments), n.id);
+        if (n.kind->function) {
+            moved = fmt::format("q{}", id);
+            out.add(fmt::format("{}vec3 {} = {}({}{});", indent, moved, n.kind->function, nearest, num.arguments),
+                    n.id);
+        }
         const Result result = fold(n, num, moved, id, out, indent);
         const std::string& d = result.distance;
         if (n.kind->secondary)

@@ -36,10 +36,10 @@ FieldEvaluator::Sample FieldEvaluator::evaluate(const FieldNode& node, glm::vec3
             s.distance = kind.distance(s.distance, q, node.values);
             break;
         case Role::domain: {
-            const glm::vec3 nearest = kind.stretch ? glm::clamp(q, node.region.low, node.region.high) : q;
-            s = fold(node, kind.domain(nearest, node.values, 0), inherited);
+            const glm::vec3 nearest = kind.confined ? glm::clamp(q, node.region.low, node.region.high) : q;
+            s = fold(node, kind.domain ? kind.domain(nearest, node.values, 0) : nearest, inherited);
             if (kind.distance) s.distance = kind.distance(s.distance, nearest, node.values);
-            if (kind.stretch) s.distance = beyond(s.distance, q - nearest);
+            if (kind.confined) s.distance = beyond(s.distance, q - nearest);
             break;
         }
         case Role::repeat:

@@ -76,9 +76,9 @@ Extent own_extent(const FieldNode& node, float level, Definitions& definitions) 
         return {definition_box(node.definition, level, definitions),
                 definitions.prepared[node.definition].extent.symmetric};
     if (!kind.image) return content_extent(node, level, definitions);
-    if (!kind.stretch) return kind.image(content_extent(node, level, definitions), node.values);
-    Extent extent = kind.image(content_extent(node, 0.0f, definitions), node.values);
-    extent.box = extent.box.grown(level);
+    // Of confined content the distance to its bounds counts outside of them.
+    Extent extent = kind.image(content_extent(node, kind.confined ? 0.0f : level, definitions), node.values);
+    if (kind.secondary && kind.role == Role::domain) extent.box = extent.box.grown(level);
     return extent;
 }
 

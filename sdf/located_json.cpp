@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <iterator>
 #include <unordered_map>
 
@@ -191,6 +192,11 @@ std::string JsonPath::text() const {
 }
 
 Json parse_json(std::string_view text) {
+    // To the lexer it would be the end, and the rest would be lost without a word.
+    if (const std::size_t nul = text.find('\0'); nul != std::string_view::npos) {
+        const auto line_ends = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(nul), '\n');
+        throw JsonError(static_cast<int>(line_ends) + 1, "", "not valid JSON: a zero byte, expected text alone");
+    }
     LineCounter lines;
     Builder builder(lines);
     nlohmann::json::sax_parse(CountingIterator(text.data(), &lines),

@@ -42,6 +42,14 @@ enum class NodeKind {
     octahedron,
     pyramid,
     ellipsoid,
+    circle,
+    rectangle,
+    rounded_rectangle,
+    polygon,
+    star,
+    ring,
+    menger_sponge,
+    mandelbulb,
     union_,
     intersect,
     subtract,
@@ -62,11 +70,21 @@ enum class NodeKind {
     engrave,
     groove,
     tongue,
+    morph,
     mirror,
+    elongate,
     repeat,
+    polar_repeat,
     twist,
+    bend,
+    taper,
+    stretch,
+    extrude,
+    revolve,
     shell,
     round,
+    displace_sine,
+    displace_noise,
     instance,
 };
 
@@ -74,7 +92,7 @@ enum class NodeKind {
 enum class Role {
     primitive,  ///< float f(vec3 p, parameters...): signed distance, no children
     combine,    ///< float f(float a, float b, parameters...): folds the children from first to last
-    domain,     ///< vec3 f(vec3 p, parameters...): moves the point before the children (a hard union) see it
+    domain,     ///< vec3 f(vec3 p, parameters...), or none: moves the point before the children (a hard union) see it
     repeat,     ///< vec3 f(vec3 p, parameters..., derived..., int cell): as domain, and the least over its cells counts
     distance,   ///< float f(float d, parameters...): changes the distance of the children (a hard union)
     instance,   ///< shows a definition (see Scene); no children, no function
@@ -102,6 +120,9 @@ struct KindInfo {
     /// Primitives: the exact distance on both sides. Others: exact outside, with exact children and default parameters.
     /// Otherwise a lower bound. Every field is 1-Lipschitz where those of its children are.
     bool exact;
+    /// Primitives: a profile in the xy plane, the same at every z. Operations: made for such; they see the
+    /// cross-section of their children at z = 0, and `exact` is promised for profiles.
+    bool flat;
     std::vector<Parameter> parameters;
     const char* function;  ///< in shapes.glsl or operations.glsl
     /// A second function from there, or null. combine: float f(a, b, parameters...), the fraction of b's material;
@@ -131,11 +152,13 @@ struct KindInfo {
     // What follows from parameters and content; further arguments of `secondary` and of the function of a repeat.
     std::vector<Parameter> derived;
     void (*derive)(const Extent& content, Values v, std::span<glm::vec3> derived);
-    /// The function `domain` stretches distances within the content's bounds by up to this, and `distance` makes up
-    /// for it; null: by 1. Such content is evaluated at the point of its bounds nearest to p, so that what lies
-    /// further out does not count: with c that point, sqrt(|p - c|² + d(c)²) is 1-Lipschitz where d is, because a
-    /// projection on a convex set is firmly nonexpansive.
+    /// How much steps are shortened at most, to be safe: the Lipschitz constant of the field before `secondary` divides
+    /// by it, where the content is; null: 1.
     float (*stretch)(Values v);
+    /// Whether that grows away from the content, so that the content is evaluated at the point of its bounds nearest to
+    /// p: with c that point, sqrt(|p - c|² + d(c)²) is 1-Lipschitz where d is, because a projection on a convex set is
+    /// firmly nonexpansive.
+    bool confined;
 
     bool takes_children() const { return role != Role::primitive && role != Role::instance; }
 };

@@ -127,6 +127,15 @@ float stepped_subtract_weight(float a, float b, float radius, float number) {
     return subtract_weight(a, b, radius);
 }
 
+// Between the two shapes: a where amount is 0, b where it is 1.
+float morph(float a, float b, float amount) {
+    return mix(a, b, amount);
+}
+
+float morph_weight(float a, float b, float amount) {
+    return amount;
+}
+
 // ---- combinations that mark where two surfaces meet; 1-Lipschitz bounds, after hg_sdf -----------------------------------
 
 // What belongs to exactly one of the two.
@@ -176,9 +185,19 @@ float tongue_weight(float a, float b, float height, float width) {
 
 // ---- domain ----------------------------------------------------------------------------------------------------------
 
-// Each axis whose flag is 1 shows the positive side's content on both sides.
-vec3 mirror(vec3 p, vec3 axes) {
-    return mix(p, abs(p), axes);
+// The absolute value with its crease rounded within radius: a parabola that touches both arms. Never steeper than 1.
+float smooth_abs(float x, float radius) {
+    return abs(x) >= radius ? abs(x) : 0.5f * (x * x / max(radius, 1e-9f) + radius);
+}
+
+// Each axis whose flag is 1 shows the positive side's content on both sides; the seam rounds where the sides meet.
+vec3 mirror(vec3 p, vec3 axes, float seam) {
+    return mix(p, vec3(smooth_abs(p.x, seam), smooth_abs(p.y, seam), smooth_abs(p.z, seam)), axes);
+}
+
+// Pulls the content apart at the origin and fills the gap, half_size to either side, with its middle cross-section.
+vec3 elongate(vec3 p, vec3 half_size) {
+    return p - clamp(p, -half_size, half_size);
 }
 
 // One axis of repeat: the coordinate in the frame of one copy of `cells` neighbours, those with their middles nearest to p.
@@ -208,6 +227,23 @@ vec3 repeat(vec3 p, vec3 spacing, vec3 count, vec3 cells, vec3 centre, int cell)
                 repeat_axis(p.z, spacing.z, count.z, cells.z, centre.z, float(cell / (x * y))));
 }
 
+// Copies turned about the y axis, `count` in a full turn; `cells` of them, those with their middles (at the angle centre
+// from x towards z) nearest to p.
+vec3 polar_repeat(vec3 p, float count, float cells, float centre, int cell) {
+    float sector = 6.2831853f / max(count, 1.0f);
+    float along = (atan(p.z, abs(p.x) + abs(p.z) > 0.0f ? p.x : 1.0f) - centre) / sector;
+    float first = floor(along + 0.5f);
+    first -= floor(0.5f * (along >= first ? cells - 1.0f : cells));
+    float angle = (first + float(cell)) * sector;
+    float c = cos(angle);
+    float s = sin(angle);
+    return vec3(c * p.x + s * p.z, p.y, c * p.z - s * p.x);
+}
+
+int polar_repeat_cells(float count, float cells, float centre) {
+    return int(cells);
+}
+
 // The distance at p of content that was evaluated at the point of its bounds nearest to p; away leads from there to p.
 float beyond(float d, vec3 away) {
     float outside = dot(away, away);
@@ -221,20 +257,92 @@ vec3 twist(vec3 p, float rate) {
     return vec3(c * p.x + s * p.z, p.y, c * p.z - s * p.x);
 }
 
-// How much a twist stretches distances at most, within radius s of its axis.
+// The distance to content that is turned by an angle that grows with place, at distance s from the axis of turning. Within
+// radius s that stretches by at most 1 + k s, on the way to the content nowhere by more than `stretch`. A path of length r
+// from p stays within s + r of the axis; so r is safe where (1 + k (s + r)) r <= |d|, and the largest such r is
+// 2 |d| / (b + sqrt(b² + 4 k |d|)) with b = 1 + k s. Both bounds are 1-Lipschitz.
+float turned_distance(float d, float s, float k, float stretch) {
+    float b = 1.0f + k * s;
+    return d * max(2.0f / (b + sqrt(b * b + 4.0f * k * abs(d))), 1.0f / stretch);
+}
+
+// A twist is a shear; k s is its slope at distance s from the axis.
 float twist_stretch(float rate, float s) {
     float k = abs(rate) * s;
     return 0.5f * (k + sqrt(k * k + 4.0f));
 }
 
-// A bound of the distance to twisted content that keeps within `reach` of the axis. On the way to it the twist stretches by
-// at most twist_stretch(reach). Nearer the axis it stretches less: within radius s by at most 1 + k s with k = |rate|, and a
-// path of length r from p stays within radius s + r; so r is safe where (1 + k (s + r)) r <= |d|, the largest such r is
-// 2 |d| / (b + sqrt(b² + 4 k |d|)) with b = 1 + k s.
+// `reach`: how far the content reaches from the y axis.
 float twist_distance(float d, vec3 p, float rate, float reach) {
-    float k = abs(rate);
-    float b = 1.0f + k * length(vec2(p.x, p.z));
-    return d * max(2.0f / (b + sqrt(b * b + 4.0f * k * abs(d))), 1.0f / twist_stretch(rate, reach));
+    return turned_distance(d, length(vec2(p.x, p.z)), abs(rate), twist_stretch(rate, reach));
+}
+
+// Turns the content about the z axis, rate radians for each metre along x: what lies along x bends up, or down where the
+// rate is negative ("cheap bend").
+vec3 bend(vec3 p, float rate) {
+    float c = cos(rate * p.x);
+    float s = sin(rate * p.x);
+    return vec3(c * p.x + s * p.y, c * p.y - s * p.x, p.z);
+}
+
+float bend_stretch(float rate, float s) {
+    return 1.0f + abs(rate) * s;
+}
+
+// `reach`: how far the content reaches from the z axis.
+float bend_distance(float d, vec3 p, float rate, float reach) {
+    return turned_distance(d, length(vec2(p.x, p.y)), abs(rate), bend_stretch(rate, reach));
+}
+
+// Width of tapered content at height y, relative to the width at 0.
+float taper_width(float y, float rate) {
+    return clamp(1.0f + rate * y, 0.05f, 20.0f);
+}
+
+// Makes the content wider or narrower as it goes up.
+vec3 taper(vec3 p, float rate) {
+    float width = taper_width(p.y, rate);
+    return vec3(p.x / width, p.y, p.z / width);
+}
+
+// The norm of (1 / narrowest, slope; 0, 1), the derivative of taper where it is largest: content narrowest there, and
+// `reach` from the axis, where the width changes with height by slope = reach |rate| / narrowest².
+float taper_stretch(float rate, float narrowest, float reach) {
+    float a = 1.0f / narrowest;
+    float b = reach * abs(rate) * a * a;
+    float sum = a * a + b * b + 1.0f;
+    return sqrt(0.5f * (sum + sqrt(max(sum * sum - 4.0f * a * a, 0.0f))));
+}
+
+float taper_distance(float d, vec3 p, float rate, float narrowest, float reach) {
+    return d / taper_stretch(rate, narrowest, reach);
+}
+
+// Scales each axis by a factor of its own. Along the axis of the smallest one distances shrink by that much.
+vec3 stretch(vec3 p, vec3 factors) {
+    return p / factors;
+}
+
+float stretch_distance(float d, vec3 p, vec3 factors) {
+    return d * min(factors.x, min(factors.y, factors.z));
+}
+
+// The cross-section at z = 0, everywhere: with extrude_distance a body, as far as half_height on either side.
+vec3 extrude(vec3 p, float half_height, float radius) {
+    return vec3(p.x, p.y, 0.0f);
+}
+
+// d is the cross-section's distance; that of an exact profile gives an exact body, unless its edges are rounded. They are
+// within its size, the radius is limited to half_height; where the section is less deep than the radius its ends are domes.
+float extrude_distance(float d, vec3 p, float half_height, float radius) {
+    float r = min(radius, half_height);
+    return prism(d + r, p.z, half_height - r) - r;
+}
+
+// The cross-section at z = 0, moved out along x by offset and turned about the y axis. Exact for exact profiles that do not
+// cross the axis, otherwise a bound.
+vec3 revolve(vec3 p, float offset) {
+    return vec3(length(vec2(p.x, p.z)) - offset, p.y, 0.0f);
 }
 
 // ---- distance --------------------------------------------------------------------------------------------------------
@@ -247,6 +355,62 @@ float shell(float d, float thickness) {
 // Everything within radius of the content: grows it and rounds its convex edges.
 float inflate(float d, float radius) {
     return d - radius;
+}
+
+// Adds to a distance, safely: what is added never exceeds `height` and nowhere changes faster than `slope`.
+float displaced(float d, float added, float height, float slope) {
+    return clamp((d + added) / (1.0f + slope), d - height, d + height);
+}
+
+// Waves in all three directions; the gradient of sin x sin y sin z is at most 1.
+float displace_sine(float d, vec3 p, float amplitude, float wavelength) {
+    float k = 6.2831853f / wavelength;
+    return displaced(d, amplitude * sin(k * p.x) * sin(k * p.y) * sin(k * p.z), amplitude, amplitude * k);
+}
+
+// A number from -1 to 1 for each point with whole coordinates. After Jarzynski and Olano, "Hash Functions for GPU
+// Rendering" (2020), pcg3d.
+float lattice_value(ivec3 i) {
+    uint x = uint(i.x) * 1664525u + 1013904223u;
+    uint y = uint(i.y) * 1664525u + 1013904223u;
+    uint z = uint(i.z) * 1664525u + 1013904223u;
+    x += y * z;
+    y += z * x;
+    z += x * y;
+    x ^= x >> 16u;
+    y ^= y >> 16u;
+    z ^= z >> 16u;
+    x += y * z;
+    return float(x >> 8u) / 8388607.5f - 1.0f;
+}
+
+// Values between the lattice's, from -1 to 1: trilinear in w = 6 t^5 - 15 t^4 + 10 t^3. The gradient is at most 3.75: with
+// weights w the derivatives D of a multilinear function of that range fulfil sum w (1 - w) D² <= 1 (Efron and Stein, 1981),
+// and w'(t)² / (w (1 - w)) is largest, 3.75², in the middle.
+float value_noise(vec3 p) {
+    vec3 cell = floor(p);
+    vec3 t = p - cell;
+    vec3 w = t * t * t * (t * (t * 6.0f - vec3(15.0f)) + vec3(10.0f));
+    ivec3 i = ivec3(clamp(cell, vec3(-2e9f), vec3(2e9f)));
+    float low = mix(mix(lattice_value(i), lattice_value(i + ivec3(1, 0, 0)), w.x),
+                    mix(lattice_value(i + ivec3(0, 1, 0)), lattice_value(i + ivec3(1, 1, 0)), w.x), w.y);
+    float high = mix(mix(lattice_value(i + ivec3(0, 0, 1)), lattice_value(i + ivec3(1, 0, 1)), w.x),
+                     mix(lattice_value(i + ivec3(0, 1, 1)), lattice_value(i + ivec3(1, 1, 1)), w.x), w.y);
+    return mix(low, high, w.z);
+}
+
+// Octaves of noise, each of half the size and half the height of the one before: of equal slope.
+float displace_noise(float d, vec3 p, float amplitude, float size, float octaves) {
+    float added = 0.0f;
+    float height = 0.0f;
+    float share = 1.0f;
+    for (int i = 0; i < 8; ++i) {
+        if (float(i) >= octaves) break;
+        added += share * value_noise(p / (share * size));
+        height += share;
+        share *= 0.5f;
+    }
+    return displaced(d, amplitude * added, amplitude * height, amplitude * 3.75f * octaves / size);
 }
 
 // ---- material --------------------------------------------------------------------------------------------------------

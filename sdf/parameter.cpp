@@ -72,6 +72,8 @@ std::string_view unit_symbol(Unit unit) {
             return "°";
         case Unit::degrees_per_metre:
             return "°/m";
+        case Unit::per_metre:
+            return "1/m";
         case Unit::stops:
             return "stops";
         case Unit::none:

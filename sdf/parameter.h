@@ -21,7 +21,7 @@ enum class ParameterType {
 };
 
 /// Units as files and the user interface show them. Generated code takes radians: see `to_code_units`.
-enum class Unit { none, metres, degrees, degrees_per_metre, stops };
+enum class Unit { none, metres, degrees, degrees_per_metre, per_metre, stops };
 
 /// Lengths, positions and radiances beyond this magnitude are refused everywhere: single precision is useless there.
 inline constexpr float largest_value = 1e6f;
@@ -53,6 +53,6 @@ std::string expectation(const Parameter& parameter);
 /// `value` brought into the range, rounded where it must be whole; NaN becomes the default.
 glm::vec3 clamped(const Parameter& parameter, glm::vec3 value);
 
-std::string_view unit_symbol(Unit unit);  ///< "m", "°", "°/m", "stops" or ""
+std::string_view unit_symbol(Unit unit);  ///< "m", "°", "°/m", "1/m", "stops" or ""
 
 }  // namespace farfield

@@ -93,6 +93,7 @@ struct Scene {
     Sky sky;
     Camera camera;
     Settings settings;
+    std::string schema;  ///< "$schema" of the file, for editors of text: kept as it is, not used
     Id next_id = 1;
 
     Scene();  ///< an empty root and one material named "default"

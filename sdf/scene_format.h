@@ -8,6 +8,7 @@ namespace farfield::format {
 inline constexpr int version = 1;
 
 // The top-level keys, in the order of writing.
+inline constexpr const char* schema = "$schema";
 inline constexpr const char* version_key = "farfield";
 inline constexpr const char* camera = "camera";
 inline constexpr const char* settings = "settings";

@@ -2,14 +2,13 @@
 #include "sdf/fields.h"
 #include "sdf/located_json.h"
 #include "sdf/scene_format.h"
+#include "sdf/suggestion.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <unordered_map>
 #include <utility>
 
@@ -17,35 +16,6 @@ namespace farfield {
 namespace {
 
 using Keys = std::vector<std::string_view>;
-
-/// Levenshtein distance.
-size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), size_t{0});
-    for (size_t i = 0; i < a.size(); ++i) {
-        size_t diagonal = std::exchange(row[0], i + 1);
-        for (size_t j = 0; j < b.size(); ++j) {
-            size_t substituted = diagonal + (a[i] != b[j]);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, substituted});
-        }
-    }
-    return row.back();
-}
-
-/// "expected one of a, b, c (perhaps b)"; of a long list only the beginning.
-std::string expected_one_of(const Keys& known, std::string_view found) {
-    const bool is_long = known.size() > 20;
-    const auto end = is_long ? known.begin() + 8 : known.end();
-    std::string text = fmt::format("expected {}{}{}", known.size() == 1 ? "" : "one of ",
-                                   fmt::join(known.begin(), end, ", "), is_long ? ", ..." : "");
-    auto distance = [&](std::string_view key) { return edit_distance(key, found.substr(0, 64)); };
-    auto nearest =
-        std::min_element(known.begin(), known.end(), [&](auto a, auto b) { return distance(a) < distance(b); });
-    if (known.size() > 1 && nearest != known.end() && distance(*nearest) <= std::max<size_t>(1, nearest->size() / 3))
-        text += fmt::format(" (perhaps {})", *nearest);
-    return text;
-}
 
 float narrowed(double number) {
     // A double beyond float's range has no defined conversion.
@@ -64,8 +34,13 @@ public:
         const Json::Object& object = object_in(document, top, "a scene");
         check_version(document, top);
         check_keys(object, top,
-                   {format::version_key, format::camera, format::settings, format::sky, format::materials,
-                    format::lights, format::definitions, format::root});
+                   {format::schema, format::version_key, format::camera, format::settings, format::sky,
+                    format::materials, format::lights, format::definitions, format::root});
+        if (const Json* schema = document.find(format::schema)) {
+            const auto* text = schema->as<std::string>();
+            if (!text) unexpected({&top, format::schema}, *schema, "a text, where the format's JSON Schema is");
+            scene_.schema = *text;
+        }
         read_section(document, top, format::camera, scene_.camera);
         read_section(document, top, format::settings, scene_.settings);
         read_section(document, top, format::sky, scene_.sky);
@@ -159,6 +134,7 @@ private:
         }
         const double* number = json.as<double>();
         if (!number) unexpected(path, json, parameter.components() == 1 ? expectation(parameter) : "a number");
+        if (parameter.is_whole() && *number != std::floor(*number)) unexpected(path, json, expectation(parameter));
         const float component = narrowed(*number);
         // The same value in all places asks about one component alone, so that the message names its line.
         if (std::string why = why_refused(parameter, glm::vec3(component)); !why.empty())

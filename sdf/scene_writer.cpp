@@ -31,6 +31,7 @@ public:
     explicit Writer(const Scene& scene) : scene_(scene) {
         for (const Node& definition : scene.definitions) definition_names_.emplace(definition.id, definition.name);
         begin({}, '{');
+        if (!scene.schema.empty()) line(format::schema, text_of(scene.schema));
         line(format::version_key, fmt::format("{}", format::version));
         section(format::camera, scene.camera);
         section(format::settings, scene.settings);

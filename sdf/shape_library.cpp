@@ -74,12 +74,14 @@ bool is_shape(std::string_view name) {
 std::string used_shapes(std::string_view code) {
     const std::vector<Function>& functions = library();
     std::set<std::string> wanted = identifiers(code);
-    // A function calls only those before it, so one pass from the end finds all.
-    for (auto f = functions.rbegin(); f != functions.rend(); ++f)
-        if (wanted.contains(f->name)) wanted.insert(f->identifiers.begin(), f->identifiers.end());
+    // A function calls only those before it, so one pass from the end finds all. A name that is wanted later, by a
+    // function before it, is a local variable's.
     std::string text;
-    for (const Function& f : functions)
-        if (wanted.contains(f.name)) text += f.text + "\n";
+    for (auto f = functions.rbegin(); f != functions.rend(); ++f) {
+        if (!wanted.contains(f->name)) continue;
+        wanted.insert(f->identifiers.begin(), f->identifiers.end());
+        text = f->text + "\n" + text;
+    }
     return text;
 }
 

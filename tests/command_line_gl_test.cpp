@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <set>
 
 namespace farfield {
 namespace {
@@ -20,10 +21,12 @@ struct Outcome {
     std::string output;  ///< stdout and stderr
 };
 
-Outcome farfield_command(const std::string& arguments) {
+/// `before`: shell commands to run first.
+Outcome farfield_command(const std::string& arguments, const char* before = "") {
     Outcome outcome;
-    FILE* pipe =
-        popen(fmt::format("env -u DISPLAY -u WAYLAND_DISPLAY '{}' {} 2>&1", FARFIELD_PROGRAM, arguments).c_str(), "r");
+    const std::string command =
+        fmt::format("exec 2>&1; {}env -u DISPLAY -u WAYLAND_DISPLAY '{}' {}", before, FARFIELD_PROGRAM, arguments);
+    FILE* pipe = popen(command.c_str(), "r");
     if (!pipe) return outcome;
     std::array<char, 4096> buffer{};
     while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe)) outcome.output.append(buffer.data(), n);
@@ -37,7 +40,8 @@ std::string scene(const char* name) { return fmt::format("'{}/{}.json'", FARFIEL
 TEST(CommandLine, HelpNamesEveryCommandAndNeedsNoDisplay) {
     const Outcome help = farfield_command("--help");
     EXPECT_EQ(help.status, 0);
-    for (const char* word : {"render", "glsl", "check", "bench", "SCENE", "scenes/README.md"})
+    for (const char* word :
+         {"render", "glsl", "check", "schema", "contact-sheet", "bench", "SCENE", "scenes/README.md"})
         EXPECT_NE(help.output.find(word), std::string::npos) << word;
     const Outcome render = farfield_command("render --help");
     EXPECT_EQ(render.status, 0);
@@ -76,12 +80,56 @@ TEST(CommandLine, GeneratedCodeIsPrinted) {
     EXPECT_NE(glsl.output.find("float scene_distance(vec3 p) {"), std::string::npos);
 }
 
+TEST(CommandLine, TheSchemaIsPrinted) {
+    const Outcome schema = farfield_command("schema");
+    EXPECT_EQ(schema.status, 0);
+    EXPECT_EQ(schema.output, read_text(std::filesystem::path(FARFIELD_SCENES) / "schema.json"));
+}
+
 TEST(CommandLine, BenchReportsPassesAndEvaluations) {
     const Outcome bench = farfield_command("bench " + scene("cornell") + " --size 32x32 --frames 1 --live");
     EXPECT_EQ(bench.status, 0) << bench.output;
     for (const char* word :
          {"compiled in", "frames/s", "camera rays", "far light", "evaluations per ray", "live program"})
         EXPECT_NE(bench.output.find(word), std::string::npos) << word;
+}
+
+TEST(CommandLine, AContactSheetShowsTheKindsAskedFor) {
+    const TemporaryFolder folder;
+    const auto sheet = [&](const char* name, const char* arguments) {
+        return farfield_command(
+            fmt::format("contact-sheet -o '{}' --size 40x24 --frames 1 {}", (folder / name).string(), arguments));
+    };
+    // Distinct pixels: a tile of nothing but background, text or black has few.
+    const auto colours = [](const Image& image) {
+        std::set<std::array<float, 3>> found;
+        for (std::size_t i = 0; i < image.pixels.size(); i += 3)
+            found.insert({image.pixels[i], image.pixels[i + 1], image.pixels[i + 2]});
+        return found.size();
+    };
+    for (const char* name : {"one.png", "again.png"}) {
+        const Outcome one = sheet(name, "--only torus");
+        ASSERT_EQ(one.status, 0) << one.output;
+        EXPECT_EQ(one.output, "");
+    }
+    EXPECT_EQ(read_text(folder / "one.png"), read_text(folder / "again.png"));
+    ASSERT_EQ(sheet("two.png", "--only torus subtract").status, 0);
+    ASSERT_EQ(sheet("below.png", "--columns 1 --only torus subtract").status, 0);
+    const Image one = read_image(folder / "one.png"), two = read_image(folder / "two.png"),
+                below = read_image(folder / "below.png");
+    EXPECT_GT(colours(one), 100u);
+    EXPECT_GE(two.size.x, one.size.x + 40);
+    EXPECT_EQ(two.size.y, one.size.y);
+    EXPECT_EQ(below.size.x, one.size.x);
+    EXPECT_GE(below.size.y, one.size.y + 24);
+
+    const Outcome wrong = sheet("wrong.png", "--only torus speere");
+    EXPECT_EQ(wrong.status, 2);
+    EXPECT_NE(wrong.output.find("\"speere\" given"), std::string::npos) << wrong.output;
+    EXPECT_NE(wrong.output.find("(perhaps sphere)"), std::string::npos) << wrong.output;
+    EXPECT_EQ(sheet("wrong.exr", "--only torus").status, 2);
+    EXPECT_EQ(sheet("no/folder.png", "--only torus").status, 1);
+    EXPECT_FALSE(std::filesystem::exists(folder / "wrong.png"));
 }
 
 TEST(CommandLine, WrongUseAndWrongInputExitWithTwo) {
@@ -108,6 +156,57 @@ TEST(CommandLine, WrongUseAndWrongInputExitWithTwo) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out.png"));
 }
 
+TEST(CommandLine, AMessageAboutAnOptionTellsOptionFoundAndExpected) {
+    const std::pair<const char*, const char*> cases[] = {
+        {"--frames 0", "--frames: \"0\" given, expected a whole number between 1 and 1000000"},
+        {"--frames 1.5", "--frames: \"1.5\" given, expected a whole number between 1 and 1000000"},
+        {"--seed -1", "--seed: \"-1\" given, expected a whole number between 0 and 4294967295"},
+        {"--context foo", "--context: \"foo\" given, expected auto, egl or osmesa"},
+        {"--view q", "--view: \"q\" given, expected one of result|"},
+        {"--ao-radius big", "--ao-radius: \"big\" given, expected a number"},
+        {"--exposure +-2", "--exposure: \"+-2\" given, expected a number between -20 and 20"},
+        {"--size 8x", "--size: \"8x\" given, expected WIDTHxHEIGHT, each between 1 and 16384"},
+        {"--size 16384x16384", "--size: \"16384x16384\" given, expected at most 33554432 pixels"},
+        {"--size", "--size: nothing given, expected WxH"},
+    };
+    for (const auto& [option, message] : cases) {
+        const Outcome outcome = farfield_command(fmt::format("render {} -o a.png {}", scene("cornell"), option));
+        EXPECT_EQ(outcome.status, 2) << option;
+        EXPECT_TRUE(outcome.output.starts_with(message)) << option << "\n" << outcome.output;
+    }
+    const Outcome unknown = farfield_command("rendr " + scene("cornell"));
+    EXPECT_EQ(unknown.status, 2);
+    EXPECT_TRUE(unknown.output.starts_with("\"rendr\" given, expected render, glsl, check, ")) << unknown.output;
+}
+
+TEST(CommandLine, NumbersMayHaveAPlus) {
+    const TemporaryFolder folder;
+    const Outcome outcome =
+        farfield_command(fmt::format("render {} --size +8x8 --frames +1 --samples +1 --exposure +2 -o '{}'",
+                                     scene("cornell"), (folder / "a.png").string()));
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+}
+
+TEST(CommandLine, AFullDiskIsNoticed) {
+    for (const std::string& arguments :
+         {"check " + scene("cornell"), "glsl " + scene("helix"), std::string("--help"), std::string("render --help")}) {
+        const Outcome outcome = farfield_command(arguments + " >/dev/full");
+        EXPECT_EQ(outcome.status, 1) << arguments;
+        EXPECT_NE(outcome.output.find("No space left on device"), std::string::npos) << arguments << outcome.output;
+    }
+    EXPECT_EQ(farfield_command("check nosuch.json 2>/dev/full").status, 2) << "a message that cannot be written";
+    // As full as can be had without a disk of one's own: files of 4 blocks at most.
+    const TemporaryFolder folder;
+    for (const char* file : {"a.png", "a.exr"}) {
+        const Outcome outcome = farfield_command(fmt::format("render {} --size 256x256 --frames 1 --samples 1 -o '{}'",
+                                                             scene("cornell"), (folder / file).string()),
+                                                 "trap '' XFSZ; ulimit -f 4; ");
+        EXPECT_EQ(outcome.status, 1) << file;
+        EXPECT_NE(outcome.output.find(std::string(file) + ": cannot be written"), std::string::npos) << outcome.output;
+    }
+    EXPECT_TRUE(std::filesystem::is_empty(folder / ""));
+}
+
 TEST(CommandLine, AnImpossibleOutputExitsWithOneAndLeavesNothing) {
     const TemporaryFolder folder;
     for (const char* file : {"no/such/folder/a.png", "a.exr/b.exr"}) {
@@ -122,6 +221,9 @@ TEST(CommandLine, WithoutADisplayTheEditorSaysSo) {
     const Outcome outcome = farfield_command(scene("cornell"));
     EXPECT_EQ(outcome.status, 1);
     EXPECT_FALSE(outcome.output.empty());
+    const Outcome missing = farfield_command("nosuch.json");
+    EXPECT_EQ(missing.status, 2);
+    EXPECT_EQ(missing.output, "nosuch.json: cannot be opened: No such file or directory\n");
 }
 
 }  // namespace

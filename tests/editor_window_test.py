@@ -7,6 +7,7 @@ machine is: every step waits for its effect, and only a machine that stands stil
 """
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -184,6 +185,67 @@ def start(editor):
     editor.settled()
 
 
+def read_code(editor, program, scene):
+    """The code panel shows what `farfield glsl` prints, and selects as the tree does."""
+    text = subprocess.run([program, "glsl", str(scene)], check=True, capture_output=True, text=True).stdout.splitlines()
+
+    def first_line_of(name):
+        return next(i for i, line in enumerate(text, 1) if line.endswith("// " + name))
+
+    editor.click("menu/View")
+    editor.click("menu/View/code")
+    report = editor.wait(f"a code of {len(text)} lines", lambda r: "code" in r and r["code"]["lines"] == len(text))
+    check(len(report["code"]["inside"]) > 20, "the whole scene is in what is selected first")
+    editor.click("tree/short block")
+    report = editor.wait("marked lines", lambda r: r["selection"] == "short block" and r["code"]["selected"])
+    lines = report["code"]["selected"]
+    check(lines[0] == first_line_of("short block"), f"marked are the lines of the short block, not {lines}")
+    check(not report["code"]["inside"], "a shape has nothing in it")
+    editor.wait("its line in sight", lambda r: f"code/line/{lines[0]}" in r["controls"])
+    editor.click(f"code/line/{first_line_of('tall block')}")
+    editor.wait("the line's node", lambda r: r["selection"] == "tall block")
+    editor.wait("its lines", lambda r: r["code"]["selected"][:1] == [first_line_of("tall block")])
+
+    # What is copied can be pasted: a word of the code becomes a name.
+    line = first_line_of("short block")
+    editor.click("code/live")
+    editor.wait("the other text", lambda r: r["code"]["lines"] != len(text))
+    editor.click("code/literals")
+    editor.wait("the first text", lambda r: r["code"]["lines"] == len(text))
+    editor.wait("its line", lambda r: f"code/line/{line}" in r["controls"])
+    editor.point_at(f"code/line/{line}", across=0.25)
+    editor.display.xdotool("click", "--repeat", 2, "--delay", 40, 1)
+    editor.key("ctrl+c")
+    editor.click("inspector/name")
+    editor.wait("a text field", lambda r: r["typing"])
+    editor.key("ctrl+a", "ctrl+v", "Return")
+    report = editor.wait("another name", lambda r: not r["saved"])
+    check(report["selection"] in re.findall(r"\w+", text[line - 1]), f"a word of the line: {report['selection']}")
+    editor.key("ctrl+z")
+    editor.wait("the old name", lambda r: r["saved"])
+    editor.key("F4")
+    editor.wait("no code", lambda r: "code" not in r)
+
+
+def type_without_traces(editor):
+    """Opening a number's text changes nothing, Escape leaves no step, and what is typed is one step."""
+    editor.click("tree/short block")
+    editor.wait("the block", lambda r: r["selection"] == "short block")
+    for control in ("inspector/scale", "settings/exposure"):
+        before = editor.report()["revision"]
+        editor.click(control, times=2)
+        editor.type("1.25")
+        editor.key("Escape")
+        report = editor.wait("no text", lambda r: not r["typing"])
+        check(report["revision"] == before, f"Escape leaves {control} as it was")
+        editor.click(control, times=2)
+        editor.enter("1.25")
+        editor.wait("the number", lambda r: not r["typing"] and r["revision"] > before)
+        editor.key("ctrl+z")
+        report = editor.wait("undo", lambda r: r["saved"])
+        check(report["revision"] == before, f"what is typed into {control} is one step of undo")
+
+
 def add_sphere_under_union(editor):
     editor.click("tree/scene")
     editor.wait("the union is selected", lambda r: r["selection"] == "scene")
@@ -320,6 +382,8 @@ def main():
         with Editor(display, program, scene, Path(folder) / "report.json") as editor:
             steps = [
                 lambda: start(editor),
+                lambda: read_code(editor, program, scene),
+                lambda: type_without_traces(editor),
                 lambda: add_sphere_under_union(editor),
                 lambda: type_values(editor),
                 lambda: drag_radius(editor),
@@ -331,7 +395,7 @@ def main():
                 lambda: define_and_free(editor),
                 lambda: show_error(editor, Path(folder) / "bad.json"),
             ]
-            names = ["start", "add a sphere under a union", "type values", "drag a radius", "sample count",
+            names = ["start", "read the code", "type without traces", "add a sphere under a union", "type values", "drag a radius", "sample count",
                      "blur levels", "AO radius", "save", "reload", "define and free", "an error in a file"]
             for name, step in zip(names, steps):
                 print(f"{name} ...", flush=True)

@@ -94,6 +94,8 @@ TEST(SceneFileError, Syntax) {
                  "not valid JSON: unexpected ',', expected '[', '{', or a literal");
     expect_error("\"red\",\n", "\"red\"\n", 19, "root/children[0] \"ball\"/material",
                  "not valid JSON: unexpected string literal, expected '}'");
+    expect_error(small + std::string("\0{}", 3), 28, "", "not valid JSON: a zero byte, expected text alone");
+    expect_error(std::string("{\n\0}", 4), 2, "", "not valid JSON: a zero byte, expected text alone");
     expect_error(small + "{}", 28, "", "not valid JSON: unexpected '{', expected end of input");
     expect_error(small.substr(0, small.find("0.5") + 3), 19, "root/children[0] \"ball\"/radius",
                  "not valid JSON: unexpected end of input, expected '}'");
@@ -143,9 +145,10 @@ TEST(SceneFileError, UnknownKey) {
     expect_error(
         "\"radius\"", "\"raduis\"", 19, "root/children[0] \"ball\"/raduis",
         "unknown key, expected one of kind, name, material, radius, translate, rotate, scale (perhaps radius)");
-    expect_error("\"camera\"", "\"kamera\"", 3, "kamera",
-                 "unknown key, expected one of farfield, camera, settings, sky, materials, lights, definitions, root "
-                 "(perhaps camera)");
+    expect_error(
+        "\"camera\"", "\"kamera\"", 3, "kamera",
+        "unknown key, expected one of $schema, farfield, camera, settings, sky, materials, lights, definitions, root "
+        "(perhaps camera)");
     expect_error("\"position\"", "\"zoom\"", 4, "camera/zoom",
                  "unknown key, expected one of position, target, field_of_view");
     expect_error("\"albedo\"", "\"color\"", 9, "materials/red/color",
@@ -185,6 +188,10 @@ TEST(SceneFileError, OutOfRange) {
                  "found 1.5, expected three numbers, each between 0 and 1");
     expect_error("\"camera\"", "\"settings\": {\"samples\": 2.5},\n\"camera\"", 3, "settings/samples",
                  "found 2.5, expected a whole number between 1 and 64");
+    expect_error("\"camera\"", "\"settings\": {\"samples\": 2.00000001},\n\"camera\"", 3, "settings/samples",
+                 "found 2.00000001, expected a whole number between 1 and 64");
+    expect_error("\"farfield\"", "\"$schema\": 1,\n\"farfield\"", 2, "$schema",
+                 "found 1, expected a text, where the format's JSON Schema is");
     expect_error("\"camera\"", "\"settings\": {\"method\": \"papr\"},\n\"camera\"", 3, "settings/method",
                  "found \"papr\", expected one of paper, reference (perhaps paper)");
     expect_error("\"root\"", "\"lights\": {\"sun\": {\"kind\": \"directional\",\n\"direction\": [0, 0, 0]}},\n\"root\"",

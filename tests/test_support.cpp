@@ -33,12 +33,20 @@ void randomise(T& object, std::mt19937& random) {
         if (below(random, 3) != 0) field.set(object, random_value(field.parameter, random));
 }
 
+/// Makes a node of another scene one that can be inserted: no materials, instances of `definition` alone.
+void adapt(Node& node, Id definition) {
+    node.material = 0;
+    if (node.kind == NodeKind::instance) node.definition = definition;
+    for (Node& child : node.children) adapt(child, definition);
+}
+
 }  // namespace
 
 std::vector<fs::path> bundled_scenes() {
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(FARFIELD_SCENES))
-        if (entry.path().extension() == ".json") files.push_back(entry.path());
+        if (entry.path().extension() == ".json" && entry.path().filename() != "schema.json")
+            files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;
 }
@@ -179,6 +187,81 @@ Scene random_scene(unsigned seed, int nodes) {
         }
     }
     return scene;
+}
+
+Edit random_edit(const Scene& scene, std::mt19937& random) {
+    const auto pick = [&](std::size_t count) { return below(random, count); };
+    const auto any_node = [&] {
+        const std::vector<Id> ids = all_ids(scene);
+        return pick(20) == 0 ? Id{99999} : ids[pick(ids.size())];
+    };
+    const auto any_kind = [&] { return node_kinds()[pick(node_kinds().size())].kind; };
+    const auto any_material = [&] { return pick(5) ? scene.materials[pick(scene.materials.size())].id : Id(pick(2)); };
+    const auto any_light = [&] {
+        return scene.lights.empty() ? Id{77777} : scene.lights[pick(scene.lights.size())].id;
+    };
+    const auto any_object = [&] {
+        const ObjectRef objects[] = {{ObjectType::node, any_node()},
+                                     {ObjectType::material, any_material()},
+                                     {ObjectType::light, any_light()},
+                                     {ObjectType::sky},
+                                     {ObjectType::camera},
+                                     {ObjectType::settings}};
+        return objects[pick(6)];
+    };
+    const auto any_definition = [&] {
+        return scene.definitions.empty() ? any_node() : scene.definitions[pick(scene.definitions.size())].id;
+    };
+    const auto any_instance = [&] {
+        std::vector<Id> instances;
+        for (const Id id : all_ids(scene))
+            if (find_node(scene, id)->kind == NodeKind::instance) instances.push_back(id);
+        return instances.empty() ? any_node() : instances[pick(instances.size())];
+    };
+    const std::string name = std::string(1, static_cast<char>('a' + pick(6)));
+    switch (pick(std::variant_size_v<Edit>)) {
+        case 0: {
+            const ObjectRef object = any_object();
+            const std::vector<Parameter> list = parameters(scene, object);
+            if (list.empty()) return SetValue{object, "radius", glm::vec3(1.0f)};
+            const Parameter& parameter = list[pick(list.size())];
+            return SetValue{object, parameter.key, pick(5) ? random_value(parameter, random) : glm::vec3(-1e9f)};
+        }
+        case 1:
+            return SetName{any_object(), name};
+        case 2:
+            return SetKind{any_node(), any_kind()};
+        case 3:
+            return SetLightKind{any_light(), pick(2) ? LightKind::point : LightKind::directional};
+        case 4:
+            return SetMaterial{any_node(), any_material()};
+        case 5: {
+            Node node = make_node(pick(6) ? any_kind() : NodeKind::instance);
+            if (info(node.kind).takes_children())
+                node.children = random_scene(static_cast<unsigned>(random()), 1 + pick(4)).root.children;
+            adapt(node, any_definition());
+            node.name = pick(2) ? name : "";
+            return InsertNode{any_node(), pick(6) - 1, node};
+        }
+        case 6:
+            return RemoveNode{any_node()};
+        case 7:
+            return MoveNode{any_node(), any_node(), pick(6) - 1};
+        case 8:
+            return AddMaterial{{0, name}};
+        case 9:
+            return RemoveMaterial{any_material()};
+        case 10:
+            return AddLight{{0, name}};
+        case 11:
+            return SetDefinition{pick(3) ? any_instance() : any_node(), any_definition()};
+        case 12:
+            return MakeDefinition{any_node()};
+        case 13:
+            return MakeIndependent{pick(3) ? any_instance() : any_node()};
+        default:
+            return RemoveLight{any_light()};
+    }
 }
 
 }  // namespace farfield

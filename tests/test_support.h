@@ -1,7 +1,7 @@
 // Helpers that tests share. Nothing here needs OpenGL.
 #pragma once
 
-#include "sdf/scene.h"
+#include "sdf/edit.h"
 
 #include <filesystem>
 #include <ostream>
@@ -47,5 +47,9 @@ std::vector<Id> all_ids(const Scene& scene);
 
 /// A value that `parameter` takes, near its default.
 glm::vec3 random_value(const Parameter& parameter, std::mt19937& random);
+
+/// Any edit, sensible or not: of every kind, with ids that exist and ids that do not, names that are free and names
+/// that are taken, values in range and out of it.
+Edit random_edit(const Scene& scene, std::mt19937& random);
 
 }  // namespace farfield

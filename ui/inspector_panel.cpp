@@ -221,6 +221,7 @@ Edits inspector_panel(Ui& ui, const Scene& scene) {
     ImGui::PopID();
     ImGui::EndChild();
     ImGui::PopStyleVar();
+    if (ui.inspected == ui.selection) ui.focus_name = false;  // what has no name has no field for it
     ui.inspected = ui.selection;
     return edits;
 }

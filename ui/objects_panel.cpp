@@ -13,7 +13,11 @@ void row(Ui& ui, const char* group, ObjectRef object, const std::string& name, c
     if (ImGui::Selectable("##row", ui.selection == object, ImGuiSelectableFlags_AllowDoubleClick,
                           {0.0f, ImGui::GetTextLineHeight()})) {
         ui.selection = object;
-        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) ui.focus_name = true;
+        if (ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && object.id != 0) ui.focus_name = true;
+    }
+    if (object.id != 0 && ui.reveal == object.id) {
+        ImGui::SetScrollHereY();
+        ui.reveal = 0;
     }
     ui.report.item(group, name);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -65,7 +69,11 @@ Edits objects_panel(Ui& ui, const Scene& scene) {
         row(ui, "lights", {ObjectType::light, light.id}, light.name, &color,
             light_kind_keys[static_cast<int>(light.kind)]);
     }
-    if (scene.lights.empty()) ImGui::TextDisabled("None. Sky and emission still light the scene.");
+    if (scene.lights.empty()) {
+        ImGui::PushTextWrapPos(0.0f);
+        ImGui::TextDisabled("None. Sky and emission still light the scene.");
+        ImGui::PopTextWrapPos();
+    }
     if (heading(ui, "Materials", "add_material", "Adds a material")) edits.push_back(AddMaterial{});
     for (const Material& material : scene.materials) {
         const bool emits = material.emission != glm::vec3(0.0f);

@@ -36,6 +36,9 @@ void Report::write(const ReportState& state, double now) {
     json["file"] = state.file;
     json["error"] = state.error;
     json["selection"] = state.selection;
+    if (state.code)
+        json["code"] = {
+            {"lines", state.code_lines}, {"selected", state.selected_lines}, {"inside", state.inside_lines}};
     json["typing"] = ImGui::GetIO().WantTextInput;
     json["pictures"] = state.pictures;
     json["structural_compiles"] = s.structural_compiles;

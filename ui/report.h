@@ -11,6 +11,7 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace farfield {
 
@@ -22,6 +23,9 @@ struct ReportState {
     std::string file;   ///< of the document, empty before the first save
     std::string error;  ///< what the error bar shows
     std::string selection;
+    bool code = false;  ///< the code panel is open
+    std::size_t code_lines = 0;
+    std::vector<std::size_t> selected_lines, inside_lines;  ///< of the code, from 1: the selected node's, and in it
 };
 
 class Report {
@@ -29,6 +33,7 @@ public:
     /// Empty path: off.
     explicit Report(std::filesystem::path file = {}) : file_(std::move(file)) {}
 
+    bool on() const { return !file_.empty(); }
     void begin_frame() { controls_.clear(); }
     /// Records the rectangle of the last ImGui item as "PANEL/NAME", if its middle is not scrolled out of sight.
     void item(std::string_view panel, std::string_view name);

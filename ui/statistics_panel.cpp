@@ -32,10 +32,11 @@ void line(const Ui& ui, const char* label, const std::string& value, bool strong
 
 }  // namespace
 
-void statistics_overlay(Ui& ui, const Statistics& s, ImVec2 corner, float room) {
+void statistics_overlay(Ui& ui, const Statistics& s, ImVec2 corner, ImVec2 room) {
     const float width = ui.theme.px(212.0f);
+    if (room.x < width || room.y < ui.theme.px(60.0f)) return;
     ImGui::SetNextWindowPos({corner.x - width, corner.y});
-    ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, room});
+    ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, room.y});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ui.theme.overlay);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
     ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {ui.theme.px(2.0f), ui.theme.px(1.0f)});

@@ -5,7 +5,7 @@
 
 namespace farfield {
 
-/// Draws at the upper right end `corner` of the viewport, `room` pixels high at most.
-void statistics_overlay(Ui& ui, const Statistics& statistics, ImVec2 corner, float room);
+/// Draws at the upper right end `corner` of the viewport, in `room` pixels at most; nothing where that is too small.
+void statistics_overlay(Ui& ui, const Statistics& statistics, ImVec2 corner, ImVec2 room);
 
 }  // namespace farfield

@@ -128,9 +128,12 @@ Theme make_theme(float pixel_scale) {
     const char* inter_bold = "/usr/share/fonts/opentype/inter/Inter-SemiBold.otf";
     const char* dejavu = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
     const char* dejavu_bold = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
+    const char* jetbrains = "/usr/share/fonts/truetype/jetbrains-mono/JetBrainsMono-Regular.ttf";
+    const char* dejavu_mono = "/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf";
     theme.regular = load_font({inter, dejavu}, theme.px(15.0f));
     theme.bold = load_font({inter_bold, dejavu_bold}, theme.px(15.0f));
     theme.small_font = load_font({inter, dejavu}, theme.px(13.0f));
+    theme.mono = load_font({jetbrains, dejavu_mono}, theme.px(16.0f));
     set_style(theme);
     return theme;
 }

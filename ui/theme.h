@@ -13,6 +13,7 @@ struct Theme {
     ImFont* regular = nullptr;
     ImFont* bold = nullptr;
     ImFont* small_font = nullptr;
+    ImFont* mono = nullptr;  ///< for code
 
     ImU32 accent = IM_COL32(240, 165, 80, 255);
     ImU32 text = IM_COL32(222, 226, 232, 255);
@@ -28,7 +29,7 @@ struct Theme {
 };
 
 /// Sets the current ImGui context's style and fonts. `pixel_scale`: density of the display, 1 at 96 dpi. Fonts: Inter
-/// through FreeType, else DejaVu, else the one that ImGui brings.
+/// and JetBrains Mono through FreeType, else DejaVu, else the one that ImGui brings.
 Theme make_theme(float pixel_scale);
 
 }  // namespace farfield

@@ -15,6 +15,17 @@ namespace farfield {
 
 using Edits = std::vector<Edit>;
 
+/// What number fields remember between frames, for the one that has the mouse or the keyboard.
+struct NumberEntry {
+    unsigned typed = 0;      ///< ImGui's id of the field that is typed into
+    char text[64] = "";      ///< what is typed so far
+    std::string before;      ///< and what it began with
+    double exact = 0.0;      ///< the dragged number before it is rounded
+    float along = 0.0f;      ///< where the mouse is on a slider, 0 to 1
+    unsigned clicked = 0;    ///< the slider that was clicked
+    double click_due = 0.0;  ///< and when that counts
+};
+
 struct Ui {
     Ui(const Theme& look, Report to) : theme(look), report(std::move(to)) {}
 
@@ -26,10 +37,12 @@ struct Ui {
     View view = View::result;
     bool show_statistics = true;
     bool show_shortcuts = false;
-    Id reveal = 0;            ///< node that the tree opens and scrolls to, once
+    bool show_code = false;
+    Id reveal = 0;            ///< node, material or light that its list scrolls to, once
     bool open_add = false;    ///< the tree opens its list of kinds to add, once
     bool focus_name = false;  ///< the inspector puts the keyboard into the name field, once
     std::string name_text;    ///< what the name field holds while someone types
+    NumberEntry number;
 };
 
 /// True while the selection names something that exists in the scene.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
-#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,43 +15,8 @@ using glm::vec3;
 float srgb_from_linear(float v) { return v <= 0.0031308f ? 12.92f * v : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f; }
 float linear_from_srgb(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
 
-/// Digits after the point that dragging works in.
-int decimals(const Parameter& parameter, float value) {
-    if (parameter.is_whole()) return 0;
-    if (parameter.unit == Unit::degrees || parameter.unit == Unit::degrees_per_metre) return 1;
-    if (parameter.unit == Unit::stops) return 2;
-    return value != 0.0f && std::abs(value) < 0.01f ? 5 : 3;
-}
-
-float rounded(const Parameter& parameter, float value) {
-    const double step = std::pow(10.0, decimals(parameter, value));
-    return static_cast<float>(std::round(static_cast<double>(value) * step) / step);
-}
-
-/// A printf format without needless zeros; while the value is being dragged its length stays the same.
-std::string number_format(const Parameter& parameter, float value, bool active, std::string_view unit) {
-    int digits = decimals(parameter, value);
-    if (!active) {
-        const std::string text = fmt::format("{:.{}f}", value, digits);
-        while (digits > 0 && text[text.size() - 1 - (decimals(parameter, value) - digits)] == '0') --digits;
-    }
-    return fmt::format("%.{}f{}{}", digits, unit.empty() || unit[0] == '\xc2' ? "" : " ", unit);
-}
-
-/// Change for each pixel that the mouse moves.
-float drag_speed(const Parameter& parameter, float value) {
-    if (parameter.is_whole()) return 0.1f;
-    float speed = 0.01f * std::max(0.5f, std::abs(value));
-    if (parameter.unit == Unit::degrees || parameter.unit == Unit::degrees_per_metre) speed = 0.5f;
-    if (parameter.unit == Unit::stops) speed = 0.02f;
-    if (parameter.maximum - parameter.minimum <= 1.0f) speed = 0.004f;
-    // ImGui makes Shift ten times faster; here it is ten times finer.
-    if (ImGui::GetIO().KeyShift) speed *= 0.01f;
-    if (ImGui::GetIO().KeyCtrl) speed *= 10.0f;
-    return speed;
-}
-
-std::string hint_text(const Parameter& parameter) {
+/// `full`: the value where the field shows less of it.
+std::string hint_text(const Parameter& parameter, const std::string& full = {}) {
     std::string initial;
     const auto number = [&](int i) { return fmt::format("{:g}", parameter.initial[i]); };
     switch (parameter.type) {
@@ -70,44 +34,12 @@ std::string hint_text(const Parameter& parameter) {
             if (parameter.unit != Unit::none) initial += fmt::format(" {}", unit_symbol(parameter.unit));
     }
     const bool numeric = parameter.type != ParameterType::choice && parameter.type != ParameterType::flags;
-    return fmt::format("Default {}. {}Right-click to reset.", initial,
-                       numeric ? "Double-click to type; Shift drags finer, Ctrl coarser. " : "");
+    return fmt::format("{}Default {}. {}Right-click to reset.", full.empty() ? "" : fmt::format("Now {}. ", full),
+                       initial, numeric ? "Double-click to type; Shift drags finer, Ctrl coarser. " : "");
 }
 
 /// Right-click on the last item asks for the default.
 bool asked_for_default() { return ImGui::IsItemHovered() && ImGui::IsMouseClicked(ImGuiMouseButton_Right); }
-
-/// One number as a drag field or a slider of the next item's width.
-bool number_field(const char* id, const Parameter& parameter, float& value, std::string_view unit,
-                  const SliderRange* range) {
-    const bool active = ImGui::GetActiveID() == ImGui::GetID(id);
-    const std::string format = number_format(parameter, value, active && !range, unit);
-    float edited = value;
-    bool changed = false;
-    if (range) {
-        if (parameter.is_whole()) {
-            int whole = static_cast<int>(value);
-            changed = ImGui::SliderInt(id, &whole, static_cast<int>(range->low), static_cast<int>(range->high),
-                                       fmt::format("%d{}{}", unit.empty() ? "" : " ", unit).c_str());
-            edited = static_cast<float>(whole);
-        } else {
-            changed =
-                ImGui::SliderFloat(id, &edited, range->low, range->high, format.c_str(),
-                                   ImGuiSliderFlags_NoRoundToFormat |
-                                       (range->logarithmic ? ImGuiSliderFlags_Logarithmic : ImGuiSliderFlags_None));
-        }
-        // A drag field takes a double-click by itself, a slider needs to be told.
-        if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left))
-            ImGui::SetKeyboardFocusHere(-1);
-    } else {
-        changed = ImGui::DragFloat(id, &edited, drag_speed(parameter, value), parameter.minimum, parameter.maximum,
-                                   format.c_str(), ImGuiSliderFlags_NoRoundToFormat);
-    }
-    if (!changed) return false;
-    const bool typed = ImGui::TempInputIsActive(ImGui::GetID(id));
-    value = typed ? edited : rounded(parameter, edited);
-    return true;
-}
 
 /// Fields for x, y and z side by side, each with a stripe in the colour of its axis.
 bool vector_fields(Ui& ui, const std::string& name, const char* panel, const Parameter& parameter, vec3& value,
@@ -120,9 +52,10 @@ bool vector_fields(Ui& ui, const std::string& name, const char* panel, const Par
         if (i > 0) ImGui::SameLine(0.0f, gap);
         ImGui::SetNextItemWidth(width);
         const char id[] = {'#', '#', "xyz"[i], 0};
-        changed |= number_field(id, parameter, value[i], unit, nullptr);
+        std::string full;
+        changed |= number_field(ui, id, parameter, value[i], unit, nullptr, &full);
         ui.report.item(panel, name + "/" + "xyz"[i]);
-        tooltip(ui, parameter.tip, hint_text(parameter));
+        tooltip(ui, parameter.tip, hint_text(parameter, full));
         if (asked_for_default()) value[i] = parameter.initial[i], changed = true;
         if (!axes) continue;
         const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
@@ -181,9 +114,11 @@ bool color_fields(Ui& ui, const std::string& name, const char* panel, const Para
         }
         if (bright) {
             ImGui::SetNextItemWidth(ui.theme.px(150.0f));
-            if (ImGui::DragFloat("Strength", &strength, 0.01f * std::max(0.5f, strength), 0.0f, parameter.maximum,
-                                 "%.3f"))
-                value = hue * strength, picked = true;
+            const Parameter limits{.key = "strength", .tip = "", .minimum = 0.0f, .maximum = parameter.maximum};
+            if (number_field(ui, "##strength", limits, strength, "", nullptr))
+                value = hue * clamped(limits, glm::vec3(strength)).x, picked = true;
+            ImGui::SameLine();
+            ImGui::TextUnformatted("Strength");
         }
         for (int i = 0; i < 3; ++i) value[i] = picked ? std::round(value[i] * 1e4f) / 1e4f : value[i];
         changed |= picked;
@@ -249,12 +184,14 @@ std::optional<vec3> value_row(Ui& ui, const char* panel, const Parameter& parame
     bool changed = false;
     switch (parameter.type) {
         case ParameterType::number:
-        case ParameterType::integer:
-            changed = number_field("##value", parameter, edited.x, unit, range);
+        case ParameterType::integer: {
+            std::string full;
+            changed = number_field(ui, "##value", parameter, edited.x, unit, range, &full);
             ui.report.item(panel, name);
-            tooltip(ui, parameter.tip, hint_text(parameter));
+            tooltip(ui, parameter.tip, hint_text(parameter, full));
             if (asked_for_default()) edited = parameter.initial, changed = true;
             break;
+        }
         case ParameterType::vector:
         case ParameterType::count:
             changed = vector_fields(ui, name, panel, parameter, edited, true);

@@ -4,17 +4,11 @@
 #pragma once
 
 #include "sdf/parameter.h"
-#include "ui/ui.h"
+#include "ui/number_field.h"
 
 #include <optional>
 
 namespace farfield {
-
-/// What a slider shows; values outside can still be typed.
-struct SliderRange {
-    float low, high;
-    bool logarithmic = false;
-};
 
 /// The new value when it was changed, in the parameter's limits. `panel` prefixes the name in the report. With a range
 /// one-component numbers become sliders.

@@ -1,0 +1,62 @@
+// What the panels work out, without a window.
+#include "sdf/codegen.h"
+#include "sdf/scene_file.h"
+#include "tests/test_support.h"
+#include "ui/glsl_tokens.h"
+#include "ui/number_field.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+namespace farfield {
+namespace {
+
+/// The line with each run in brackets and the first letter of what it is before them.
+std::string marked(std::string_view line) {
+    std::string text;
+    const std::vector<GlslRun> runs = glsl_runs(line);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        const std::size_t end = i + 1 < runs.size() ? runs[i + 1].start : line.size();
+        text += "pktnfc"[static_cast<int>(runs[i].token)];
+        text += "[" + std::string(line.substr(runs[i].start, end - runs[i].start)) + "]";
+    }
+    return text;
+}
+
+TEST(GlslRuns, TellKeywordsTypesNumbersFunctionsAndComments) {
+    EXPECT_EQ(marked(""), "");
+    EXPECT_EQ(marked("    return d0;"), "p[    ]k[return]p[ d0;]");
+    EXPECT_EQ(marked("float d1 = box(p2 - vec3(-1.5e-05, .2, 3u));  // a box(1)"),
+              "t[float]p[ d1 = ]f[box]p[(p2 - ]t[vec3]p[(-]n[1.5e-05]p[, ]n[.2]p[, ]n[3u]p[));  ]c[// a box(1)]");
+    EXPECT_EQ(marked("for (int i = 0; i < 0x1f; ++i)"), "k[for]p[ (]t[int]p[ i = ]n[0]p[; i < ]n[0x1f]p[; ++i)]");
+    EXPECT_EQ(marked("vec3 returned = float3 - 1.0f-2.0;"), "t[vec3]p[ returned = float3 - ]n[1.0f]p[-]n[2.0]p[;]");
+}
+
+TEST(GlslRuns, CoverEveryLineOfGeneratedCode) {
+    for (const char* name : {"still_life", "helix", "cornell"}) {
+        std::istringstream text(
+            generate(load_scene(std::string(FARFIELD_SCENES) + "/" + name + ".json"), Tier::live).text);
+        for (std::string line; std::getline(text, line);) {
+            const std::vector<GlslRun> runs = glsl_runs(line);
+            ASSERT_EQ(runs.empty(), line.empty()) << line;
+            for (std::size_t i = 0; i < runs.size(); ++i) {
+                ASSERT_LT(runs[i].start, line.size()) << line;
+                ASSERT_TRUE(i == 0 ? runs[i].start == 0 : runs[i].start > runs[i - 1].start) << line;
+            }
+        }
+    }
+}
+
+TEST(TypedNumber, IsReadAsPeopleTypeIt) {
+    EXPECT_EQ(typed_number("1.5", ""), 1.5f);
+    EXPECT_EQ(typed_number(" +1.5 m ", "m"), 1.5f);
+    EXPECT_EQ(typed_number("-16.6°", "°"), -16.6f);
+    EXPECT_EQ(typed_number("0,25", "m"), 0.25f);
+    EXPECT_EQ(typed_number("1e-3", ""), 1e-3f);
+    for (const char* text : {"", " ", "m", "1.5 x", "1,000.5", "+-1", "nan", "inf", "1e99"})
+        EXPECT_EQ(typed_number(text, "m"), std::nullopt) << text;
+}
+
+}  // namespace
+}  // namespace farfield

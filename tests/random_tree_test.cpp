@@ -1,0 +1,111 @@
+// Operations on operations: what holds for every kind holds for trees of them.
+#include "sdf/evaluate.h"
+#include "tests/test_support.h"
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace farfield {
+namespace {
+
+float uniform(std::mt19937& random, float low, float high) {
+    return low + (high - low) * static_cast<float>(random() >> 8) * 0x1p-24f;
+}
+
+glm::vec3 random_point(std::mt19937& random, float half) {
+    const float x = uniform(random, -half, half), y = uniform(random, -half, half);
+    return {x, y, uniform(random, -half, half)};
+}
+
+enum class Repeated { primitives, anything };
+
+/// Operations down to `depth` levels, primitives below; often two children where the kind combines, else one.
+Node random_tree(int depth, Repeated repeated, std::mt19937& random) {
+    std::vector<NodeKind> kinds;
+    for (const KindInfo& kind : node_kinds())
+        if (kind.takes_children() == (depth > 1) && kind.role != Role::instance) kinds.push_back(kind.kind);
+    Node node = make_node(kinds[random() % kinds.size()]);
+    const KindInfo& kind = info(node.kind);
+    for (std::size_t i = 0; i < node.values.size(); ++i) node.values[i] = random_value(kind.parameters[i], random);
+    node.transform.translate = random_point(random, 0.5f);
+    node.transform.rotate = random() % 3 ? random_point(random, 180.0f) : glm::vec3(0.0f);
+    node.transform.scale = random() % 3 ? 1.0f : uniform(random, 0.3f, 2.0f);
+    if (kind.takes_children()) {
+        const int below = kind.role == Role::repeat && repeated == Repeated::primitives ? 1 : depth - 1;
+        node.children.push_back(random_tree(below, repeated, random));
+        if (kind.role == Role::combine && random() % 3)
+            node.children.push_back(
+                random_tree(1 + static_cast<int>(random() % static_cast<unsigned>(below)), repeated, random));
+    }
+    return node;
+}
+
+std::string text(glm::vec3 p) { return fmt::format("({}, {}, {})", p.x, p.y, p.z); }
+
+std::string outline(const Node& node, int depth = 0) {
+    std::string text = fmt::format("\n{:{}}{}", "", 2 * depth, info(node.kind).key);
+    for (const glm::vec3& v : node.values) text += fmt::format(" ({} {} {})", v.x, v.y, v.z);
+    for (const Node& child : node.children) text += outline(child, depth + 1);
+    return text;
+}
+
+class RandomTree : public testing::TestWithParam<unsigned> {
+protected:
+    /// A scene of one tree of depth six.
+    Scene scene(Repeated repeated) {
+        Scene scene;
+        scene.root.children.push_back(random_tree(6, repeated, random_));
+        return scene;
+    }
+    std::mt19937 random_{GetParam()};
+};
+INSTANTIATE_TEST_SUITE_P(DepthSix, RandomTree, testing::Range(0u, 8u));
+
+/// Coordinates of about 2 m pass through six levels of rounding, 1.2e-7 relative each, scales up to 3 a level.
+constexpr float rounding = 5e-5f;
+
+// Where the content of a repetition is a bound the values may jump at the planes between its cells, although they are
+// bounds on either side; so only primitives are repeated here.
+TEST_P(RandomTree, IsOneLipschitz) {
+    const Scene tree = scene(Repeated::primitives);
+    const FieldEvaluator field(tree);
+    for (int i = 0; i < 1'000'000; ++i) {
+        const glm::vec3 a = random_point(random_, 2.0f);
+        const glm::vec3 direction = glm::normalize(random_point(random_, 1.0f) + 1e-6f);
+        const glm::vec3 b = a + direction * std::exp2(uniform(random_, -10.0f, 0.0f));
+        ASSERT_LE(std::abs(field.distance(a) - field.distance(b)), glm::length(a - b) + rounding)
+            << "from " << text(a) << " to " << text(b) << outline(tree.root.children[0]);
+    }
+}
+
+TEST_P(RandomTree, HasNoSurfaceNearerThanItSays) {
+    const Scene tree = scene(Repeated::anything);
+    const FieldEvaluator field(tree);
+    for (int i = 0; i < 20'000; ++i) {
+        const glm::vec3 a = random_point(random_, 2.0f);
+        const float d = field.distance(a);
+        for (int k = 0; k < 10 && std::abs(d) > rounding; ++k) {
+            const glm::vec3 direction = glm::normalize(random_point(random_, 1.0f) + 1e-6f);
+            const glm::vec3 b = a + direction * uniform(random_, 0.0f, std::min(std::abs(d) - rounding, 4.0f));
+            ASSERT_EQ(d > 0.0f, field.distance(b) > 0.0f)
+                << d << " at " << text(a) << ", another sign at " << text(b) << outline(tree.root.children[0]);
+        }
+    }
+}
+
+TEST_P(RandomTree, LiesWithinItsBounds) {
+    const Scene tree = scene(Repeated::anything);
+    const FieldEvaluator field(tree);
+    const Box box = field.tree().bounds();
+    for (int i = 0; i < 100'000; ++i) {
+        const glm::vec3 p = random_point(random_, i % 2 ? 3.0f : 20.0f);
+        if (field.distance(p) > 0.0f) continue;
+        ASSERT_TRUE(glm::clamp(p, box.low, box.high) == p) << text(p) << outline(tree.root.children[0]);
+    }
+}
+
+}  // namespace
+}  // namespace farfield
