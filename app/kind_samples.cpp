@@ -77,7 +77,10 @@ Node sample(const KindInfo& kind, const Palette& palette) {
     Node node = make_node(kind.kind);
     if (kind.role == Role::primitive) {
         node.material = palette.main;
-        return node;
+        if (!kind.flat) return node;
+        Node body = make_node(K::extrude);  // a profile has no end
+        body.children = {node};
+        return body;
     }
     for (std::size_t i = 0; i < kind.parameters.size(); ++i) node.values[i] = visible_value(kind.parameters[i]);
     switch (kind.role) {
@@ -92,6 +95,10 @@ Node sample(const KindInfo& kind, const Palette& palette) {
             node.children = {shape(K::box, vec3(0.35f, 0.45f, 0.12f), palette.main),
                              shape(K::sphere, vec3(0.15f), palette.second, vec3(0.35f, 0.22f, 0.0f))};
             break;
+    }
+    if (kind.flat) {
+        node.children = {shape(K::star, vec3(5.0f), palette.main)};
+        node.children[0].transform.scale = 0.5f;
     }
     if (kind.role == Role::repeat)
         for (Node& child : node.children) {

@@ -207,7 +207,7 @@ void add_primitives(std::vector<KindInfo>& t) {
          length("half_height", "Half the height", 0.4f)},
         [](Values v) { return turned(v[0].x, -v[1].x, v[1].x); }, FUNCTION(primitive, pyramid)));
     t.push_back(make_primitive(
-        K::ellipsoid, "ellipsoid", "Ellipsoid", "A sphere stretched along the axes", true,
+        K::ellipsoid, "ellipsoid", "Ellipsoid", "A sphere stretched along the axes", false,
         {lengths("radii", "Half the lengths along x, y and z", 0.5f, 1e-3f)}, [](Values v) { return within(v[0]); },
         FUNCTION(primitive, ellipsoid)));
     t.push_back(make_profile(

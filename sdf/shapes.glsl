@@ -59,29 +59,12 @@ float plane(vec3 p) {
     return p.y;
 }
 
-// The surface point nearest to p is radii² p / (t + radii²), componentwise, with the one t > -shortest² that puts it on the
-// surface (Eberly, "Distance from a point to an ellipse, an ellipsoid, or a hyperellipsoid", 2013). With u = t / shortest² + 1
-// that is |a / (u + k)| = 1. 1 / |a / (u + k)| is concave in u, so Newton's method for it rises to the root from any u below,
-// such as the least that makes one component 1: in 3 steps mostly, in 11 on the focal set of a body 1000 times longer than
-// thick. A convex body's distance is the largest n.p - h(n) over unit n, here h(n) = |radii n|; so an error of the normal n
-// counts by its square, and 5e-4 here is below 1e-5 there. Coordinates below 1e-6 radii count as that: inside, symmetry can
-// leave n open. The loop's step depends on data lest Mesa unroll it: llvmpipe would then run through all of it always.
+// A bound: that of the ball of the same relative size, or the distance to the box around it, whichever is larger. The exact
+// distance, by Newton's method in a loop, took 2.2 times as long for 1 % fewer evaluations per ray: the tracer learns slopes.
+// The usual bound k0 (k0 - 1) / |p / radii²| grows faster than 1 beside the rim of thin bodies, without limit.
 float ellipsoid(vec3 p, vec3 radii) {
     float shortest = min(radii.x, min(radii.y, radii.z));
-    vec3 r = radii / shortest;
-    vec3 k = (r - 1.0f) * (r + 1.0f);
-    vec3 a = r * r * max(abs(p) / radii, vec3(1e-6f));
-    float u = max(a.x - k.x, max(a.y - k.y, a.z - k.z));
-    float excess = 1.0f;
-    for (int i = 0; i < 12; i += excess > 5e-4f ? 1 : 12) {
-        vec3 v = 1.0f / (u + k);
-        vec3 w = a * v;
-        float square = dot(w, w);
-        excess = sqrt(square) - 1.0f;
-        u += excess * square / dot(w * w, v);
-    }
-    vec3 n = normalize(a / ((u + k) * r));
-    return dot(n, abs(p)) - length(radii * n);
+    return max((length(p / radii) - 1.0f) * shortest, box(p, radii));
 }
 
 // Everything within radius of the y axis.
