@@ -134,8 +134,15 @@ int run_schema() {
 
 int run_check(const std::filesystem::path& file) {
     const Scene scene = load_scene(file);
-    fmt::print("{}: {} nodes, {} materials, {} lights\n", file.string(), count_nodes(scene.root),
-               scene.materials.size(), scene.lights.size());
+    const auto instances_in = [](const auto& self, const Node& node) -> int {
+        int count = node.definition != 0 ? 1 : 0;
+        for (const Node& child : node.children) count += self(self, child);
+        return count;
+    };
+    int instances = instances_in(instances_in, scene.root);
+    for (const Node& definition : scene.definitions) instances += instances_in(instances_in, definition);
+    fmt::print("{}: {} nodes, {} definitions, {} instances, {} materials, {} lights\n", file.string(),
+               count_nodes(scene), scene.definitions.size(), instances, scene.materials.size(), scene.lights.size());
     return 0;
 }
 
@@ -146,7 +153,7 @@ int run_bench(const BenchOptions& options) {
     FrameOptions frame;
     frame.size = options.size;
     fmt::print("scene     {}, {} nodes\ndevice    {} ({})\npicture   {} x {}, {} samples per frame, {} bounces\n",
-               options.scene.string(), count_nodes(scene.root), renderer.statistics().device, headless.context->name(),
+               options.scene.string(), count_nodes(scene), renderer.statistics().device, headless.context->name(),
                options.size.x, options.size.y, scene.settings.samples, scene.settings.bounces);
 
     for (const Tier tier : {Tier::specialised, Tier::live}) {

@@ -35,6 +35,8 @@ const char* heading(Role role) {
             return "Repetitions";
         case Role::distance:
             return "Modifiers of distance";
+        case Role::instance:
+            return "Instances";
     }
     return "";
 }
@@ -49,6 +51,7 @@ std::vector<Group> grouped(const std::vector<std::string>& only) {
 
     std::vector<Group> groups;
     for (const KindInfo& kind : node_kinds()) {
+        if (kind.role == Role::instance) continue;  // of what, a sheet of kinds cannot tell
         if (!only.empty() && std::find(only.begin(), only.end(), kind.key) == only.end()) continue;
         auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.role == kind.role; });
         if (group == groups.end()) group = groups.insert(groups.end(), {kind.role, {}});

@@ -161,7 +161,9 @@ private:
                 const auto* set = std::get_if<SetValue>(&edit);
                 gesture_moves_ |= !set || set->object.type != ObjectType::settings;
                 ui_.selection = next;
-                if (std::holds_alternative<InsertNode>(edit)) ui_.selection = {ObjectType::node, ui_.reveal = id};
+                if (std::holds_alternative<InsertNode>(edit) || std::holds_alternative<MakeDefinition>(edit) ||
+                    std::holds_alternative<MakeIndependent>(edit))
+                    ui_.selection = {ObjectType::node, ui_.reveal = id};
                 if (std::holds_alternative<AddMaterial>(edit)) ui_.selection = {ObjectType::material, ui_.reveal = id};
                 if (std::holds_alternative<AddLight>(edit)) ui_.selection = {ObjectType::light, ui_.reveal = id};
                 if (const auto* moved = std::get_if<MoveNode>(&edit)) ui_.reveal = moved->node;
@@ -202,6 +204,10 @@ private:
                 return !duplicate_selection(ui_, scene).empty();
             case CommandId::remove:
                 return !delete_selection(ui_, scene).empty();
+            case CommandId::make_definition:
+                return !define_selection(ui_, scene).empty();
+            case CommandId::make_independent:
+                return !free_selection(ui_, scene).empty();
             case CommandId::move_up:
                 return !shift_selection(ui_, scene, -1).empty();
             case CommandId::move_down:
@@ -251,6 +257,12 @@ private:
             case CommandId::remove:
                 carry_out(delete_selection(ui_, scene), 0);
                 break;
+            case CommandId::make_definition:
+                carry_out(define_selection(ui_, scene), 0);
+                break;
+            case CommandId::make_independent:
+                carry_out(free_selection(ui_, scene), 0);
+                break;
             case CommandId::move_up:
                 carry_out(shift_selection(ui_, scene, -1), 0);
                 break;
@@ -291,7 +303,7 @@ private:
         const Scene& scene = document_.scene();
         switch (ui_.selection.type) {
             case ObjectType::node:
-                if (const Node* node = find_node(scene, ui_.selection.id)) return display_name(*node);
+                if (const Node* node = find_node(scene, ui_.selection.id)) return display_name(scene, *node);
                 return "";
             case ObjectType::material:
                 if (const Material* material = find_material(scene, ui_.selection.id)) return material->name;

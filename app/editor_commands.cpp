@@ -36,6 +36,8 @@ constexpr Command commands[] = {
     {CommandId::remove, "Edit", "delete", "Delete", GLFW_KEY_DELETE, plain, "Del"},
     {CommandId::move_up, "Edit", "move_up", "Move up", GLFW_KEY_UP, alt, "Alt+Up", true},
     {CommandId::move_down, "Edit", "move_down", "Move down", GLFW_KEY_DOWN, alt, "Alt+Down"},
+    {CommandId::make_definition, "Edit", "make_definition", "Make definition", 'I', ctrl, "Ctrl+I", true},
+    {CommandId::make_independent, "Edit", "make_independent", "Make independent", 'I', ctrl | shift, "Ctrl+Shift+I"},
     {CommandId::statistics, "View", "statistics", "Statistics", GLFW_KEY_F3, plain, "F3", true},
     {CommandId::code, "View", "code", "Code", GLFW_KEY_F4, plain, "F4"},
     {CommandId::shortcuts, "Help", "shortcuts", "Keys and mouse", GLFW_KEY_F1, plain, "F1"},

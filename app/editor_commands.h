@@ -23,6 +23,8 @@ enum class CommandId {
     remove,
     move_up,
     move_down,
+    make_definition,
+    make_independent,
     code,
     statistics,
     shortcuts,

@@ -68,7 +68,7 @@ void status_line(const Ui& ui, ImVec2 low, ImVec2 size, const Document& document
     draw.AddRectFilled(low, {low.x + size.x, low.y + size.y}, ImGui::GetColorU32(ImGuiCol_MenuBarBg));
     const float y = low.y + (size.y - font->FontSize) * 0.5f, pad = ui.theme.px(10.0f);
     const Scene& scene = document.scene();
-    const int nodes = count_nodes(scene.root) - 1;
+    const int nodes = count_nodes(scene) - 1;
     std::string right = fmt::format("{} {}   {} {}", nodes, nodes == 1 ? "node" : "nodes", picture.statistics.samples,
                                     picture.statistics.samples == 1 ? "sample" : "samples");
     const float width = font->CalcTextSizeA(font->FontSize, 1e6f, 0.0f, right.c_str()).x;

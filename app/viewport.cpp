@@ -53,7 +53,7 @@ ViewportResult viewport(Ui& ui, const Scene& scene, const RenderedPicture& pictu
     result.edits = move_camera(scene, size.y, result.wheel);
     if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_Arrow);
 
-    if (is_empty(scene.root)) {
+    if (is_empty(scene, scene.root)) {
         centred_text(ui, low, high, -0.5f, "There is no shape in the scene yet", ui.theme.text);
         centred_text(ui, low, high, 0.7f, "Press + Add in the Scene panel, or A, to put in a first one", ui.theme.dim);
     } else if (picture.texture == 0 && picture.error.empty()) {

@@ -26,7 +26,7 @@ constexpr double step_milliseconds = 25.0;
 constexpr auto longest_wait = std::chrono::milliseconds(150);
 /// Scenes with more nodes get no program with every number live: its compilation takes seconds on llvmpipe (27 nodes
 /// 0.8 s, 43 nodes 1.6 s). They rely on the program with the selected node live.
-constexpr int largest_live_scene = 32;
+constexpr std::uint64_t largest_live_scene = 32;
 
 struct Slot {
     gl::Texture texture;
@@ -221,7 +221,7 @@ bool RenderThread::State::compile_in_background() {
         return true;
     }
     const bool tuned = current.tuned && find_node(scene, current.tuned) && missing(Tier::specialised, current.tuned);
-    const bool live = !tuned && count_nodes(scene.root) <= largest_live_scene && missing(Tier::live, 0);
+    const bool live = !tuned && expanded_node_count(scene) <= largest_live_scene && missing(Tier::live, 0);
     prepared = !tuned && !live;
     if (prepared) return false;
     update(tuned ? Tier::specialised : Tier::live, tuned ? current.tuned : 0);

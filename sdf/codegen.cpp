@@ -32,22 +32,39 @@ std::string literal(const glm::mat3& m) {
     return text;
 }
 
+/// Code calls a definition "@" and its number; the text has a name there, the key, which does not depend on names, the
+/// number.
+std::string with_names(const std::string& code, const std::vector<std::string>& names) {
+    std::string text;
+    std::size_t from = 0;
+    for (std::size_t at = code.find('@'); at != std::string::npos; at = code.find('@', from)) {
+        std::size_t number = 0;
+        text += code.substr(from, at - from);
+        for (from = at + 1; from < code.size() && code[from] >= '0' && code[from] <= '9'; ++from)
+            number = 10 * number + static_cast<std::size_t>(code[from] - '0');
+        text += from > at + 1 && number < names.size() ? names[number] : code.substr(at, from - at);
+    }
+    return text + code.substr(from);
+}
+
 /// Lines of code with the nodes they belong to; the key gathers the code alone.
 struct Lines {
-    std::string text;
-    std::string key;
-    std::vector<Id> nodes;
+    const std::vector<std::string>& names;  ///< of definitions
+    std::string text = {};
+    std::string key = {};
+    std::vector<Id> nodes = {};
 
     void add(const std::string& code, Id node = 0, const std::string& comment = {}) {
         const std::size_t column = 72;
-        std::string line = code;
+        const bool blank = code.find_first_not_of(' ') == std::string::npos;
+        std::string line = with_names(code, names);
         if (!comment.empty()) {
-            if (!code.empty()) line += std::string(code.size() < column ? column - code.size() : 1, ' ') + " ";
+            if (!blank) line += std::string(line.size() < column ? column - line.size() : 1, ' ') + " ";
             line += "// " + comment;
             std::replace(line.begin(), line.end(), '\\', '/');  // at the end of a line it would continue the comment
         }
         text += line + "\n";
-        if (!code.empty()) key += code + "\n";
+        if (!blank) key += code + "\n";
         nodes.push_back(node);
     }
     void append(const Lines& other) {
@@ -57,10 +74,40 @@ struct Lines {
     }
 };
 
+/// Names by which the code can call the definitions, made from their own: of letters, digits and single underscores, in
+/// a form that no keyword has and no other function of the program. They stand before "_distance" and "_surface".
+std::vector<std::string> code_names(const std::vector<FieldNode>& definitions) {
+    std::vector<std::string> names;
+    std::set<std::string> taken{"scene", "no"};  // scene_distance, no_surface
+    std::map<std::string, int> numbers;
+    for (const FieldNode& definition : definitions) {
+        constexpr std::size_t longest = 40;
+        std::string name;
+        for (const char c : definition.name.substr(0, longest)) {
+            const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'), digit = c >= '0' && c <= '9';
+            if (letter || digit)
+                name += c;
+            else if (!name.empty() && name.back() != '_')
+                name += '_';
+        }
+        if (!name.empty() && name.back() == '_') name.pop_back();
+        if (name.empty() || (name[0] >= '0' && name[0] <= '9') || name.starts_with("gl_"))
+            name = name.empty() ? "part" : "part_" + name;
+        std::string free = name;
+        int& number = numbers[name];
+        while (!taken.insert(free).second || is_shape(free + "_distance") || is_shape(free + "_surface"))
+            free = fmt::format("{}_{}", name, number++ + 2);
+        names.push_back(free);
+    }
+    return names;
+}
+
 /// What a node comes to in the code: an expression of the distance and one of the material code.
 struct Result {
     std::string distance;
     std::string material;
+    bool named = false;   ///< the distance is a variable
+    bool varies = false;  ///< the material is one: it is not the same everywhere
 };
 
 /// Which numbers are live, and where their nodes' values stand in the parameter block: translation, inverse rotation by
@@ -69,11 +116,13 @@ struct Result {
 class ParameterBlock {
 public:
     ParameterBlock(const FieldTree& tree, Tier tier, Id tuned) : all_(tier == Tier::live), tuned_(tuned) {
-        if (tree.root && tuned != 0) find_above(*tree.root);
+        if (tuned == 0) return;
+        for (const FieldNode& definition : tree.definitions) above_tuned_.push_back(find_above(definition));
+        if (tree.root) find_above(*tree.root);
     }
 
     bool is_live(const FieldNode& n) const { return all_ || n.id == tuned_; }
-    bool is_derived_live(const FieldNode& n) const { return all_ || above_tuned_.contains(n.id); }
+    bool is_derived_live(const FieldNode& n) const { return all_ || nodes_above_tuned_.contains(n.id); }
 
     /// Index of the node's first value; both functions of the program share it.
     std::size_t first(const FieldNode& n) {
@@ -83,7 +132,7 @@ public:
         for (int column = 0; column < 3; ++column) add(n.to_own[column]);
         values.push_back(n.scale);
         for (std::size_t i = 0; i < n.kind->parameters.size(); ++i) add(n.kind->parameters[i], n.values[i]);
-        values.push_back(static_cast<float>(n.material));
+        values.push_back(n.material == inherited_material ? -1.0f : static_cast<float>(n.material));
         return place->second;
     }
     /// Index of the first derived value; the low and high corner of the region follow where the node needs them.
@@ -108,31 +157,36 @@ private:
     }
     /// Whether the tuned node is this one or below it; remembers those for which it is.
     bool find_above(const FieldNode& n) {
-        bool found = n.id == tuned_;
+        bool found = n.id == tuned_ || (n.kind->role == Role::instance && above_tuned_[n.definition]);
         for (const FieldNode& child : n.children) found = find_above(child) || found;
-        if (found) above_tuned_.insert(n.id);
+        if (found) nodes_above_tuned_.insert(n.id);
         return found;
     }
 
     bool all_;
     Id tuned_;
-    std::set<Id> above_tuned_;
+    std::vector<bool> above_tuned_;  ///< for each definition
+    std::set<Id> nodes_above_tuned_;
     std::map<Id, std::size_t> first_, first_derived_;
 };
 
 constexpr std::size_t scale_offset = 12, parameters_offset = 13;
 
-/// Writes one function body, for the distance alone or for distance and material together.
+/// Writes the functions of the definitions and of the scene, for the distance alone or for distance and material
+/// together.
 class Writer {
 public:
-    Writer(const FieldTree& tree, ParameterBlock& block, bool with_material)
-        : tree_(tree), block_(block), with_material_(with_material) {}
+    Writer(const FieldTree& tree, const std::vector<std::string>& names, ParameterBlock& block, bool with_material)
+        : tree_(tree), names_(names), block_(block), with_material_(with_material), functions_{names} {}
 
     Lines write() {
-        Lines body;
+        for (std::size_t i = 0; i < tree_.definitions.size(); ++i) write_definition(i);
+        in_definition_ = false;
+        next_group_ = next_child_ = 0;
+        Lines body{names_};
         std::optional<Result> result;
         if (tree_.root) result = node(*tree_.root, "p", body, "    ");
-        Lines all;
+        Lines all{names_};
         all.append(functions_);
         all.add(with_material_ ? "float scene_surface(vec3 p, out uint material) {" : "float scene_distance(vec3 p) {");
         all.append(body);
@@ -143,6 +197,26 @@ public:
     }
 
 private:
+    /// A definition whose material is the same everywhere needs no function for it.
+    void write_definition(std::size_t index) {
+        const FieldNode& n = tree_.definitions[index];
+        in_definition_ = true;
+        next_group_ = next_child_ = 0;
+        Lines body{names_};
+        const Result result = node(n, "p", body, "    ");
+        materials_.push_back(result);
+        if (with_material_ && !result.varies) return;
+        functions_.add(with_material_
+                           ? fmt::format("float @{}_surface(vec3 p, uint inherited, out uint material) {{", index)
+                           : fmt::format("float @{}_distance(vec3 p) {{", index),
+                       n.id, n.kind->takes_children() ? "" : comment(n));
+        functions_.append(body);
+        if (with_material_) functions_.add(fmt::format("    material = {};", result.material), n.id);
+        functions_.add(fmt::format("    return {};", result.distance), n.id);
+        functions_.add("}");
+        functions_.add("");
+    }
+
     /// A node's numbers as they stand in the code: literals, or reads of the parameter block.
     struct Numbers {
         std::string point;      ///< p in the node's own frame
@@ -156,6 +230,7 @@ private:
 
     Numbers numbers(const FieldNode& n, const std::string& p) {
         Numbers numbers = block_.is_live(n) ? live_numbers(n, p, block_.first(n)) : literals(n, p);
+        if (!block_.is_live(n) && n.material == inherited_material) numbers.material = "inherited";
         add_derived(n, numbers);
         return numbers;
     }
@@ -168,7 +243,7 @@ private:
         return parameter.components() == 1 ? literal(v.x) : literal(v);
     }
 
-    static Numbers live_numbers(const FieldNode& n, const std::string& p, std::size_t first) {
+    Numbers live_numbers(const FieldNode& n, const std::string& p, std::size_t first) const {
         Numbers numbers{fmt::format("place({}, {})", p, first),
                         fmt::format("parameter({}) * ", first + scale_offset),
                         "",
@@ -182,7 +257,8 @@ private:
             numbers.arguments += ", " + read(parameter, at);
             at += static_cast<std::size_t>(parameter.components());
         }
-        numbers.material = fmt::format("uint(parameter({}))", at);
+        numbers.material =
+            fmt::format(fmt::runtime(in_definition_ ? "live_material({}, inherited)" : "uint(parameter({}))"), at);
         return numbers;
     }
 
@@ -222,13 +298,39 @@ private:
     }
 
     static std::string comment(const FieldNode& n) {
+        if (n.name.empty() && n.kind->role == Role::instance) return "";  // the function's name tells
         return n.name.empty()             ? n.kind->key
                : n.kind->takes_children() ? fmt::format("{} ({})", n.name, n.kind->key)
                                           : n.name;
     }
 
     Result node(const FieldNode& n, const std::string& p, Lines& out, const std::string& indent) {
-        return n.kind->takes_children() ? group(n, p, out, indent) : primitive(n, p);
+        return n.kind->role == Role::instance ? instance(n, p, out, indent)
+               : n.kind->takes_children()     ? group(n, p, out, indent)
+                                              : primitive(n, p);
+    }
+
+    Result instance(const FieldNode& n, const std::string& p, Lines& out, const std::string& indent) {
+        const Numbers own = numbers(n, p);
+        const Result& shown = materials_[n.definition];
+        if (!shown.varies)
+            return {fmt::format("{}@{}_distance({})", own.factor, n.definition, own.point),
+                    with_material_ ? with_inherited(shown.material, own.material) : ""};
+        const int id = next_child_++;
+        const Result result{fmt::format("e{}", id), fmt::format("n{}", id), true, true};
+        out.add(fmt::format("{}uint {};", indent, result.material), n.id);
+        out.add(fmt::format("{}float {} = {}@{}_surface({}, {}, {});", indent, result.distance, own.factor,
+                            n.definition, own.point, own.material, result.material),
+                n.id, comment(n));
+        return result;
+    }
+
+    /// A definition's material as the instance's function sees it.
+    static std::string with_inherited(std::string material, const std::string& inherited) {
+        const std::string_view word = "inherited";
+        if (const std::size_t at = material.find(word); at != std::string::npos)
+            material.replace(at, word.size(), inherited);
+        return material;
     }
 
     Result primitive(const FieldNode& n, const std::string& p) {
@@ -240,7 +342,7 @@ private:
     Result group(const FieldNode& n, const std::string& p, Lines& out, const std::string& indent) {
         const KindInfo& kind = *n.kind;
         const int id = next_group_++;
-        out.add(indent + "// " + comment(n), n.id);
+        out.add(indent, n.id, comment(n));
 
         const Numbers num = numbers(n, p);
         std::string own = p;
@@ -264,9 +366,11 @@ private:
                 result = repeat(n, num, own, id, out, indent);
                 break;
             case Role::primitive:
+            case Role::instance:
                 break;
         }
         if (!num.factor.empty()) set(result, num.factor + result.distance, n, out, indent);
+        result.named = true;
         return result;
     }
 
@@ -284,18 +388,18 @@ private:
         Result result;
         for (const FieldNode& child : n.children) {
             Result next = node(child, p, out, indent);
-            const bool group = child.kind->takes_children();
-            const std::string name = group ? "" : comment(child);
+            const bool named = next.named;
+            const std::string name = named ? "" : comment(child);
             if (result.distance.empty()) {
                 result = next;
-                if (group) continue;
+                if (named) continue;
                 result.distance = fmt::format("d{}", id);
                 out.add(fmt::format("{}float {} = {};", indent, result.distance, next.distance), child.id, name);
                 continue;
             }
             const bool other_material = next.material != result.material;
             if (other_material) {
-                if (!group) {
+                if (!named) {
                     const std::string e = fmt::format("e{}", next_child_++);
                     out.add(fmt::format("{}float {} = {};", indent, e, next.distance), child.id, name);
                     next.distance = e;
@@ -303,6 +407,7 @@ private:
                 const std::string m = fmt::format("m{}", id), blended = blend(kind, num, result, next);
                 out.add(fmt::format("{}{}{} = {};", indent, result.material == m ? "" : "uint ", m, blended), child.id);
                 result.material = m;
+                result.varies = true;
             }
             out.add(fmt::format("{}{} = {};", indent, result.distance,
                                 combination(kind, num, result.distance, next.distance)),
@@ -340,7 +445,8 @@ private:
         }
         if (n.kind->function) {
             moved = fmt::format("q{}", id);
-            out.add(fmt::format("{}vec3 {} = {}({}{});", indent, moved, n.kind->function, nearest, num.arguments),
+            out.add(fmt::format("{}vec3 {} = {}({}{}{});", indent, moved, n.kind->function, nearest, num.arguments,
+                                n.kind->function_takes_derived ? num.derived : ""),
                     n.id);
         }
         const Result result = fold(n, num, moved, id, out, indent);
@@ -365,13 +471,15 @@ private:
             out.add(fmt::format("{}vec3 {} = {}({}{}, 0);", indent, q, kind.function, p, args), n.id);
             return fold(n, num, q, id, out, indent);
         }
-        const std::string content = fmt::format("distance_of_copy{}", id),
-                          material_of = fmt::format("material_of_copy{}", id);
-        Lines body;
+        const int copy_id = next_copy_++;
+        const std::string content = fmt::format("distance_of_copy{}", copy_id),
+                          material_of = fmt::format("material_of_copy{}", copy_id);
+        Lines body{names_};
         const Result copy = fold(n, num, "p", id, body, "    ");
-        const bool materials = with_material_ && copy.material.starts_with('m');  // it varies across the copy
+        const bool materials = copy.varies;
         if (!with_material_ || materials) {
-            functions_.add(with_material_ ? fmt::format("uint {}(vec3 p) {{", material_of)
+            functions_.add(with_material_ ? fmt::format("uint {}(vec3 p{}) {{", material_of,
+                                                        in_definition_ ? ", uint inherited" : "")
                                           : fmt::format("float {}(vec3 p) {{", content),
                            n.id, "one copy of " + comment(n));
             functions_.append(body);
@@ -398,16 +506,23 @@ private:
         out.add(fmt::format("{}    {} = min({}, {});", indent, d, d, e), n.id);
         out.add(indent + "}", n.id);
         const std::string m = fmt::format("m{}", id);
-        out.add(fmt::format("{}uint {} = {}({});", indent, m, material_of, nearest), n.id);
-        return {d, m};
+        out.add(
+            fmt::format("{}uint {} = {}({}{});", indent, m, material_of, nearest, in_definition_ ? ", inherited" : ""),
+            n.id);
+        return {d, m, true, true};
     }
 
     const FieldTree& tree_;
+    const std::vector<std::string>& names_;
     ParameterBlock& block_;
     bool with_material_;
     Lines functions_;
-    int next_group_ = 0;  ///< counts the same in both functions, so that they share the contents of repetitions
+    std::vector<Result> materials_;  ///< of the definitions
+    bool in_definition_ = false;
+    int next_group_ = 0;
     int next_child_ = 0;
+    int next_copy_ =
+        0;  ///< counts the same for both kinds of functions, so that they share the contents of repetitions
 };
 
 constexpr const char* live_helpers =
@@ -426,18 +541,28 @@ bool is_flat(const FieldNode& n) {
            std::any_of(n.children.begin(), n.children.end(), is_flat);
 }
 
+constexpr const char* inherited_helper =
+    "\n"
+    "// The material that a node of a definition has by parameter i: that of the instance where there is none.\n"
+    "uint live_material(int i, uint inherited) {\n"
+    "    return parameter(i) < 0.0 ? inherited : uint(parameter(i));\n"
+    "}\n";
+
 }  // namespace
 
 GeneratedScene generate(const Scene& scene, Tier tier, Id tuned) {
     GeneratedScene generated;
     const FieldTree tree(scene);
     ParameterBlock block(tree, tier, tuned);
-    const Lines distance = Writer(tree, block, false).write();
-    const Lines material = Writer(tree, block, true).write();
+    const std::vector<std::string> names = code_names(tree.definitions);
+    const Lines distance = Writer(tree, names, block, false).write();
+    const Lines material = Writer(tree, names, block, true).write();
 
-    Lines all;
+    Lines all{names};
     std::string library = used_shapes(distance.key + material.key);
-    if (!block.values.empty()) library += std::string(live_helpers) + "\n";
+    if (!block.values.empty()) library += live_helpers;
+    if (material.key.find("live_material(") != std::string::npos) library += inherited_helper;
+    if (!block.values.empty()) library += "\n";
     for (std::size_t start = 0; start < library.size();) {
         const std::size_t end = library.find('\n', start);
         all.add(library.substr(start, end - start));
@@ -451,7 +576,8 @@ GeneratedScene generate(const Scene& scene, Tier tier, Id tuned) {
     generated.parameters = std::move(block.values);
     generated.line_nodes = std::move(all.nodes);
     generated.bounds = tree.bounds();
-    generated.flat = tree.root && is_flat(*tree.root);
+    generated.flat =
+        (tree.root && is_flat(*tree.root)) || std::any_of(tree.definitions.begin(), tree.definitions.end(), is_flat);
     return generated;
 }
 

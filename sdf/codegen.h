@@ -3,6 +3,8 @@
 // buffer costs far more than a literal: `specialised` has literals, so that identity transforms and hard blends fold
 // away; `live` reads every number from a parameter block, so that no parameter edit needs a new program. In between, a
 // specialised program can have one `tuned` node whose numbers are live: what the editor uses while a hand moves them.
+// Each definition becomes one function, called by all of its instances, with one set of values in the parameter block;
+// where its material is not the same everywhere, a second one tells the material too.
 #pragma once
 
 #include "sdf/scene.h"
@@ -15,9 +17,9 @@ namespace farfield {
 enum class Tier { live, specialised };
 
 struct GeneratedScene {
-    /// Shape functions used, then `float scene_distance(vec3 p)` and `float scene_surface(vec3 p, out uint material)`
-    /// (world frame, metres; material code as blend_materials makes it). With parameters it also needs `float
-    /// parameter(int)`.
+    /// Shape functions used, functions of definitions, then `float scene_distance(vec3 p)` and `float
+    /// scene_surface(vec3 p, out uint material)` (world frame, metres; material code as blend_materials makes it). With
+    /// parameters it also needs `float parameter(int)`.
     std::string text;
     /// The code without comments. Equal keys mean equal programs: renaming a node changes the text alone, and in the
     /// live tier no parameter edit changes the key.

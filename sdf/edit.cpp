@@ -52,11 +52,18 @@ void visit_nodes(Node& node, const std::function<void(Node&)>& visit) {
     for (Node& child : node.children) visit_nodes(child, visit);
 }
 
+/// In the tree and in the definitions.
+template <class S, class Visit>
+void visit_all_nodes(S& scene, Visit visit) {
+    visit_nodes(scene.root, visit);
+    for (auto& definition : scene.definitions) visit_nodes(definition, visit);
+}
+
 using Names = std::set<std::string>;
 
 Names node_names(const Scene& scene) {
     Names names;
-    visit_nodes(scene.root, [&](const Node& node) {
+    visit_all_nodes(scene, [&](const Node& node) {
         if (!node.name.empty()) names.insert(node.name);
     });
     return names;
@@ -103,6 +110,8 @@ void check_subtree(const Scene& scene, const Node& node) {
     for (const auto& field : fields<Transform>()) check(field.parameter, field.get(node.transform));
     if (node.material != 0 && !find_material(scene, node.material))
         throw EditError(fmt::format("there is no material {}", node.material));
+    if ((kind.role == Role::instance) != (find_definition(scene, node.definition) != nullptr))
+        throw EditError(fmt::format("{}: an instance shows a definition, and nothing else does", display_name(node)));
     if (!kind.takes_children() && !node.children.empty())
         throw EditError(fmt::format("a {} takes no children", kind.label));
     for (const Node& child : node.children) check_subtree(scene, child);
@@ -147,6 +156,7 @@ Id apply_one(Scene& scene, const SetName& e) {
     switch (e.object.type) {
         case ObjectType::node: {
             Node& node = node_for(scene, e.object.id);
+            if (e.name.empty() && find_definition(scene, node.id)) throw EditError("a definition needs a name");
             if (!e.name.empty() && e.name != node.name && node_names(scene).contains(e.name))
                 throw EditError(fmt::format("there is already a node named {}", e.name));
             node.name = e.name;
@@ -169,6 +179,9 @@ Id apply_one(Scene& scene, const SetKind& e) {
     if (node.id == scene.root.id && e.kind != NodeKind::union_) throw EditError("the root stays a union");
     if (!to.takes_children() && !node.children.empty())
         throw EditError(fmt::format("{} has children, which a {} cannot take", display_name(node), to.label));
+    if (to.role == Role::instance && node.kind != e.kind)
+        throw EditError(fmt::format("{} cannot become an instance: add an instance of a definition instead",
+                                    display_name(scene, node)));
     Node fresh = make_node(e.kind);
     const KindInfo& from = info(node.kind);
     for (std::size_t i = 0; i < to.parameters.size(); ++i)
@@ -177,6 +190,7 @@ Id apply_one(Scene& scene, const SetKind& e) {
                 to.parameters[i].components() == from.parameters[j].components() &&
                 why_refused(to.parameters[i], node.values[j]).empty())
                 fresh.values[i] = node.values[j];
+    if (to.role != Role::instance) node.definition = 0;
     node.kind = e.kind;
     node.values = std::move(fresh.values);
     return 0;
@@ -199,18 +213,23 @@ Id apply_one(Scene& scene, const SetMaterial& e) {
     return 0;
 }
 
-Id apply_one(Scene& scene, const InsertNode& e) {
-    Node& parent = parent_for(scene, e.parent);
-    const auto where = place(parent, e.index);
-    check_subtree(scene, e.node);
-    Node inserted = e.node;
+/// Fresh ids for a subtree that is not in the scene yet, and names that are free.
+void make_new(Scene& scene, Node& subtree) {
     Names taken = node_names(scene);
-    visit_nodes(inserted, [&](Node& node) {
+    visit_nodes(subtree, [&](Node& node) {
         node.id = scene.new_id();
         if (node.name.empty()) return;
         node.name = free_name(taken, node.name);
         taken.insert(node.name);
     });
+}
+
+Id apply_one(Scene& scene, const InsertNode& e) {
+    Node& parent = parent_for(scene, e.parent);
+    const auto where = place(parent, e.index);
+    check_subtree(scene, e.node);
+    Node inserted = e.node;
+    make_new(scene, inserted);
     const Id id = inserted.id;
     parent.children.insert(where, std::move(inserted));
     return id;
@@ -219,6 +238,14 @@ Id apply_one(Scene& scene, const InsertNode& e) {
 Id apply_one(Scene& scene, const RemoveNode& e) {
     node_for(scene, e.node);
     if (e.node == scene.root.id) throw EditError("the root stays");
+    if (const Node* definition = find_definition(scene, e.node)) {
+        if (const int uses = count_uses(scene, e.node); uses > 0)
+            throw EditError(fmt::format("{} is shown by {} instance{}: delete {} first or make {} independent",
+                                        definition->name, uses, uses == 1 ? "" : "s", uses == 1 ? "it" : "them",
+                                        uses == 1 ? "it" : "them"));
+        scene.definitions.erase(scene.definitions.begin() + (definition - scene.definitions.data()));
+        return 0;
+    }
     Node& parent = node_for(scene, find_parent(scene, e.node)->id);
     parent.children.erase(position_in(parent, e.node));
     return 0;
@@ -228,6 +255,7 @@ Id apply_one(Scene& scene, const MoveNode& e) {
     const Node& moved = node_for(scene, e.node);
     Node& to = parent_for(scene, e.parent);
     if (e.node == scene.root.id) throw EditError("the root stays where it is");
+    if (find_definition(scene, e.node)) throw EditError("a definition stays where it is: add an instance of it");
     // A search below the moved node: it cannot become its own descendant.
     bool inside = false;
     visit_nodes(moved, [&](const Node& node) { inside |= node.id == e.parent; });
@@ -251,6 +279,58 @@ Id apply_one(Scene& scene, const MoveNode& e) {
     return 0;
 }
 
+Node& instance_for(Scene& scene, Id id) {
+    Node& node = node_for(scene, id);
+    if (node.kind != NodeKind::instance) throw EditError(fmt::format("{} is no instance", display_name(node)));
+    return node;
+}
+
+Id apply_one(Scene& scene, const SetDefinition& e) {
+    Node& instance = instance_for(scene, e.instance);
+    if (!find_definition(scene, e.definition)) throw EditError(fmt::format("there is no definition {}", e.definition));
+    instance.definition = e.definition;
+    return 0;
+}
+
+Id apply_one(Scene& scene, const MakeDefinition& e) {
+    Node& node = node_for(scene, e.node);
+    if (e.node == scene.root.id) throw EditError("the root cannot become a definition");
+    if (find_definition(scene, e.node)) throw EditError(fmt::format("{} is a definition already", node.name));
+    if (node.kind == NodeKind::instance)
+        throw EditError(fmt::format("{} shows a definition already", display_name(scene, node)));
+    Node instance = make_instance(node);
+    instance.id = scene.new_id();
+    std::swap(instance.transform, node.transform);
+    std::swap(instance.material, node.material);
+    if (node.name.empty()) node.name = free_name(node_names(scene), info(node.kind).label);
+    Node definition = std::exchange(node, instance);
+    scene.definitions.push_back(std::move(definition));
+    return instance.id;
+}
+
+Id apply_one(Scene& scene, const MakeIndependent& e) {
+    Node& instance = instance_for(scene, e.instance);
+    if (find_definition(scene, e.instance))
+        throw EditError(fmt::format("{} is a definition: change its kind instead", instance.name));
+    Node copy = *find_definition(scene, instance.definition);
+    make_new(scene, copy);
+    if (const Transform& t = copy.transform;
+        t.translate == glm::vec3(0.0f) && t.rotate == glm::vec3(0.0f) && t.scale == 1.0f) {
+        copy.transform = instance.transform;
+        if (copy.material == 0) copy.material = instance.material;
+    } else {  // two placements are two nodes
+        Node outer = make_node(NodeKind::union_);
+        outer.id = scene.new_id();
+        outer.transform = instance.transform;
+        outer.material = instance.material;
+        outer.children.push_back(std::move(copy));
+        copy = std::move(outer);
+    }
+    if (!instance.name.empty()) copy.name = instance.name;
+    instance = std::move(copy);
+    return instance.id;
+}
+
 Id apply_one(Scene& scene, const AddMaterial& e) {
     if (scene.materials.size() >= largest_material_count)
         throw EditError(fmt::format("a scene has at most {} materials", largest_material_count));
@@ -267,7 +347,7 @@ Id apply_one(Scene& scene, const RemoveMaterial& e) {
     const Material& material = item_for(scene.materials, e.material, "material");
     if (scene.materials.size() == 1) throw EditError("the last material stays");
     scene.materials.erase(scene.materials.begin() + (&material - scene.materials.data()));
-    visit_nodes(scene.root, [&](Node& node) {
+    visit_all_nodes(scene, [&](Node& node) {
         if (node.material == e.material) node.material = 0;
     });
     return 0;
@@ -299,7 +379,7 @@ std::string name_in(const std::vector<T>& items, Id id) {
 
 std::string node_name(const Scene& scene, Id id) {
     const Node* node = find_node(scene, id);
-    return node ? display_name(*node) : "?";
+    return node ? display_name(scene, *node) : "?";
 }
 
 std::string object_name(const Scene& scene, ObjectRef object) {
@@ -323,7 +403,23 @@ std::string object_name(const Scene& scene, ObjectRef object) {
 }  // namespace
 
 Id apply(Scene& scene, const Edit& edit) {
-    return std::visit([&](const auto& e) { return apply_one(scene, e); }, edit);
+    const auto carry_out = [&](Scene& to) { return std::visit([&](const auto& e) { return apply_one(to, e); }, edit); };
+    const bool nests = std::holds_alternative<InsertNode>(edit) || std::holds_alternative<MoveNode>(edit) ||
+                       std::holds_alternative<SetDefinition>(edit) || std::holds_alternative<MakeDefinition>(edit) ||
+                       std::holds_alternative<MakeIndependent>(edit);
+    if (!nests) return carry_out(scene);
+    // Whether the result has an end is easiest to see in the result.
+    Scene changed = scene;
+    const Id id = carry_out(changed);
+    if (const auto problem = find_nesting_problem(changed)) {
+        const Node& node = *find_node(changed, problem->node);
+        if (!problem->endless)
+            throw EditError(fmt::format("at most {} nodes can be inside one another", largest_depth));
+        throw EditError(
+            fmt::format("{} cannot contain an instance of itself", find_definition(changed, node.definition)->name));
+    }
+    scene = std::move(changed);
+    return id;
 }
 
 std::string describe(const Scene& before, const Edit& edit) {
@@ -342,9 +438,14 @@ std::string describe(const Scene& before, const Edit& edit) {
                                    light_kind_keys[static_cast<int>(e.kind)]);
             },
             [&](const SetMaterial& e) { return fmt::format("material of {}", node_name(before, e.node)); },
-            [&](const InsertNode& e) { return fmt::format("add {}", display_name(e.node)); },
+            [&](const InsertNode& e) { return fmt::format("add {}", display_name(before, e.node)); },
             [&](const RemoveNode& e) { return fmt::format("delete {}", node_name(before, e.node)); },
             [&](const MoveNode& e) { return fmt::format("move {}", node_name(before, e.node)); },
+            [&](const SetDefinition& e) {
+                return fmt::format("let {} show {}", node_name(before, e.instance), node_name(before, e.definition));
+            },
+            [&](const MakeDefinition& e) { return fmt::format("make {} a definition", node_name(before, e.node)); },
+            [&](const MakeIndependent& e) { return fmt::format("make {} independent", node_name(before, e.instance)); },
             [&](const AddMaterial&) { return std::string("add material"); },
             [&](const RemoveMaterial& e) {
                 return fmt::format("delete material {}", name_in(before.materials, e.material));

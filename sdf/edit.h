@@ -43,12 +43,26 @@ struct InsertNode {
 };
 struct RemoveNode {
     Id node;
-};
+};  ///< or a definition, once nothing shows it
 struct MoveNode {
     Id node;
     Id parent;
     int index;
 };  ///< index counts in the parent before the node is taken out
+/// Chooses what an instance shows.
+struct SetDefinition {
+    Id instance;
+    Id definition;
+};
+/// Turns a node with all below it into a definition and puts an instance of it in its place, which takes over placement
+/// and material: the picture stays. Returns the instance.
+struct MakeDefinition {
+    Id node;
+};
+/// Replaces an instance by a copy of what it shows: the picture stays. Returns the copy.
+struct MakeIndependent {
+    Id instance;
+};
 struct AddMaterial {
     Material material;
 };  ///< gets a fresh id and a free name
@@ -62,16 +76,17 @@ struct RemoveLight {
     Id light;
 };
 
-using Edit = std::variant<SetValue, SetName, SetKind, SetLightKind, SetMaterial, InsertNode, RemoveNode, MoveNode,
-                          AddMaterial, RemoveMaterial, AddLight, RemoveLight>;
+using Edit =
+    std::variant<SetValue, SetName, SetKind, SetLightKind, SetMaterial, InsertNode, RemoveNode, MoveNode, SetDefinition,
+                 MakeDefinition, MakeIndependent, AddMaterial, RemoveMaterial, AddLight, RemoveLight>;
 
 struct EditError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
 /// Carries out one edit. Throws EditError and leaves the scene as it was when the edit makes no sense: unknown id,
-/// value out of range, name taken, children for a primitive, a node moved into itself, removal of the root. Returns the
-/// id of what was inserted or added, otherwise 0.
+/// value out of range, name taken, children for a primitive, a node moved into itself, a definition that would contain
+/// itself, removal of the root. Returns the id of what was inserted or added, otherwise 0.
 Id apply(Scene& scene, const Edit& edit);
 
 /// What the undo list calls it, as "radius of ring" or "delete sphere".

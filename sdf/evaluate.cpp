@@ -5,10 +5,10 @@
 
 namespace farfield {
 
-FieldEvaluator::Sample FieldEvaluator::fold(const FieldNode& node, glm::vec3 p) {
-    Sample result = evaluate(node.children[0], p);
+FieldEvaluator::Sample FieldEvaluator::fold(const FieldNode& node, glm::vec3 p, std::uint32_t inherited) const {
+    Sample result = evaluate(node.children[0], p, inherited);
     for (std::size_t i = 1; i < node.children.size(); ++i) {
-        const Sample next = evaluate(node.children[i], p);
+        const Sample next = evaluate(node.children[i], p, inherited);
         if (node.kind->role == Role::combine) {
             const float share = node.kind->weight(result.distance, next.distance, node.values);
             result.material = blend_materials(result.material, next.material, share);
@@ -20,33 +20,36 @@ FieldEvaluator::Sample FieldEvaluator::fold(const FieldNode& node, glm::vec3 p) 
     return result;
 }
 
-FieldEvaluator::Sample FieldEvaluator::evaluate(const FieldNode& node, glm::vec3 p) {
+FieldEvaluator::Sample FieldEvaluator::evaluate(const FieldNode& node, glm::vec3 p, std::uint32_t inherited) const {
     const KindInfo& kind = *node.kind;
     const glm::vec3 q = node.to_own * (p - node.translate) / node.scale;
-    Sample s{empty_distance, node.material};
+    Sample s{empty_distance, node.material == inherited_material ? inherited : node.material};
     switch (kind.role) {
         case Role::primitive:
             s.distance = kind.primitive(q, node.values);
             break;
         case Role::combine:
-            s = fold(node, q);
+            s = fold(node, q, inherited);
             break;
         case Role::distance:
-            s = fold(node, q);
+            s = fold(node, q, inherited);
             s.distance = kind.distance(s.distance, q, node.values);
             break;
         case Role::domain: {
             const glm::vec3 nearest = kind.confined ? glm::clamp(q, node.region.low, node.region.high) : q;
-            s = fold(node, kind.domain ? kind.domain(nearest, node.values, 0) : nearest);
+            s = fold(node, kind.domain ? kind.domain(nearest, node.values, 0) : nearest, inherited);
             if (kind.distance) s.distance = kind.distance(s.distance, nearest, node.values);
             if (kind.confined) s.distance = beyond(s.distance, q - nearest);
             break;
         }
         case Role::repeat:
             for (int cell = 0; cell < kind.cells(node.values); ++cell) {
-                const Sample copy = fold(node, kind.domain(q, node.values, cell));
+                const Sample copy = fold(node, kind.domain(q, node.values, cell), inherited);
                 if (copy.distance < s.distance) s = copy;
             }
+            break;
+        case Role::instance:
+            s = evaluate(tree_.definitions[node.definition], q, s.material);
             break;
     }
     s.distance *= node.scale;
@@ -54,11 +57,11 @@ FieldEvaluator::Sample FieldEvaluator::evaluate(const FieldNode& node, glm::vec3
 }
 
 float FieldEvaluator::distance(glm::vec3 p) const {
-    return !tree_.root ? empty_distance : evaluate(*tree_.root, p).distance;
+    return !tree_.root ? empty_distance : evaluate(*tree_.root, p, 0).distance;
 }
 
 std::uint32_t FieldEvaluator::material(glm::vec3 p) const {
-    return !tree_.root ? 0 : evaluate(*tree_.root, p).material;
+    return !tree_.root ? 0 : evaluate(*tree_.root, p, 0).material;
 }
 
 glm::vec3 FieldEvaluator::normal(glm::vec3 p, float h) const {

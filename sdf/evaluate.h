@@ -26,8 +26,9 @@ private:
         float distance;
         std::uint32_t material;
     };
-    static Sample evaluate(const FieldNode& node, glm::vec3 p);
-    static Sample fold(const FieldNode& node, glm::vec3 p);
+    /// `inherited`: the material of nodes in definitions that have none of their own.
+    Sample evaluate(const FieldNode& node, glm::vec3 p, std::uint32_t inherited) const;
+    Sample fold(const FieldNode& node, glm::vec3 p, std::uint32_t inherited) const;
 
     FieldTree tree_;
 };

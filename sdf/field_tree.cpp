@@ -1,29 +1,63 @@
 #include "sdf/field_tree.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <unordered_map>
+#include <utility>
 
 namespace farfield {
 namespace {
 
-Box level_box(const FieldNode& node, float level);
+/// The definitions, and what is known of them so far.
+struct Definitions {
+    Definitions(const Scene& in_scene, std::vector<FieldNode>& to)
+        : scene(in_scene), filled(filled_definitions(scene)), prepared(to) {
+        for (const Node& definition : scene.definitions) nodes.emplace(definition.id, &definition);
+    }
+    const Scene& scene;
+    std::set<Id> filled;
+    std::unordered_map<Id, const Node*> nodes;
+    std::vector<FieldNode>& prepared;
+    std::unordered_map<Id, std::size_t> indices;
+    std::map<std::pair<std::size_t, float>, Box> boxes;  ///< at levels other than 0
+};
+
+Box level_box(const FieldNode& node, float level, Definitions& definitions);
+
+/// The level or a bit more, one of eight for each octave.
+float rounded_up(float level) {
+    int exponent = 0;
+    const float mantissa = std::frexp(std::min(level, unbounded), &exponent);
+    return std::ldexp(std::ceil(16.0f * mantissa) / 16.0f, exponent);
+}
+
+Box definition_box(std::size_t index, float level, Definitions& definitions) {
+    if (level == 0.0f) return definitions.prepared[index].extent.box;
+    level = rounded_up(level);
+    const auto [box, fresh] = definitions.boxes.try_emplace({index, level});
+    if (fresh) box->second = level_box(definitions.prepared[index], level, definitions);
+    return box->second;
+}
 
 /// What the children fill together, at this level of theirs, in the node's own frame.
-Box content_box(const FieldNode& node, float level) {
+Box content_box(const FieldNode& node, float level, Definitions& definitions) {
     const KindInfo& kind = *node.kind;
     const float count = static_cast<float>(std::max<std::size_t>(node.children.size(), 2) - 1);
     if (kind.reach) level += kind.reach(node.values) * (kind.role == Role::combine ? count : 1.0f);
-    Box box = level_box(node.children[0], level);
+    Box box = level_box(node.children[0], level, definitions);
     if (kind.gather == Gather::first) return box;
     for (std::size_t i = 1; i < node.children.size(); ++i) {
-        const Box next = level_box(node.children[i], level);
+        const Box next = level_box(node.children[i], level, definitions);
         box = kind.gather == Gather::all ? box.common(next) : box.united(next);
     }
     return box;
 }
 
 /// Symmetric where all children are.
-Extent content_extent(const FieldNode& node, float level) {
-    Extent extent{content_box(node, level), {true, true, true}};
+Extent content_extent(const FieldNode& node, float level, Definitions& definitions) {
+    Extent extent{content_box(node, level, definitions), {true, true, true}};
     for (const FieldNode& child : node.children)
         for (std::size_t axis = 0; axis < 3; ++axis)
             extent.symmetric[axis] = extent.symmetric[axis] && child.extent.symmetric[axis];
@@ -31,16 +65,19 @@ Extent content_extent(const FieldNode& node, float level) {
 }
 
 /// Bounds of the points where the node's field is at most `level`, in its own frame.
-Extent own_extent(const FieldNode& node, float level) {
+Extent own_extent(const FieldNode& node, float level, Definitions& definitions) {
     const KindInfo& kind = *node.kind;
     if (kind.role == Role::primitive) {
         Extent extent = kind.extent(node.values);
         extent.box = extent.box.grown(level);
         return extent;
     }
-    if (!kind.image) return content_extent(node, level);
+    if (kind.role == Role::instance)
+        return {definition_box(node.definition, level, definitions),
+                definitions.prepared[node.definition].extent.symmetric};
+    if (!kind.image) return content_extent(node, level, definitions);
     // Of confined content the distance to its bounds counts outside of them.
-    Extent extent = kind.image(content_extent(node, kind.confined ? 0.0f : level), node.values);
+    Extent extent = kind.image(content_extent(node, kind.confined ? 0.0f : level, definitions), node.values);
     if (kind.secondary && kind.role == Role::domain) extent.box = extent.box.grown(level);
     return extent;
 }
@@ -55,30 +92,41 @@ Box to_parent(const FieldNode& node, const Box& box) {
     return with_margin(box.transformed(glm::transpose(node.to_own), node.scale, node.translate));
 }
 
-Box level_box(const FieldNode& node, float level) {
-    return level == 0.0f ? node.extent.box : to_parent(node, own_extent(node, level / node.scale).box);
+Box level_box(const FieldNode& node, float level, Definitions& definitions) {
+    return level == 0.0f ? node.extent.box : to_parent(node, own_extent(node, level / node.scale, definitions).box);
 }
 
-FieldNode prepare(const Scene& scene, const Node& node, std::uint32_t inherited) {
+FieldNode prepare(const Node& node, std::uint32_t inherited, Definitions& definitions);
+
+std::size_t definition_index(Id id, Definitions& definitions) {
+    if (const auto found = definitions.indices.find(id); found != definitions.indices.end()) return found->second;
+    FieldNode definition = prepare(*definitions.nodes.at(id), inherited_material, definitions);
+    definitions.prepared.push_back(std::move(definition));
+    return definitions.indices[id] = definitions.prepared.size() - 1;
+}
+
+FieldNode prepare(const Node& node, std::uint32_t inherited, Definitions& definitions) {
     const KindInfo& kind = info(node.kind);
     const Transform& t = node.transform;
     FieldNode part{node.id,     node.name,
                    &kind,       {},
                    t.translate, glm::transpose(rotation_matrix(t)),
-                   t.scale,     material_index(scene, node.material, inherited),
+                   t.scale,     material_index(definitions.scene, node.material, inherited),
                    {},          {},
                    {}};
     for (const Node& child : node.children)
-        if (!is_empty(child)) part.children.push_back(prepare(scene, child, part.material));
+        if (!is_empty(child, definitions.filled)) part.children.push_back(prepare(child, part.material, definitions));
+    if (kind.role == Role::instance) part.definition = definition_index(node.definition, definitions);
 
     for (std::size_t i = 0; i < kind.parameters.size(); ++i)
         part.values.push_back(to_code_units(kind.parameters[i], node.values[i]));
     if (kind.derive) {
         part.values.resize(kind.parameters.size() + kind.derived.size());
-        kind.derive(content_extent(part, 0.0f), part.values, std::span(part.values).subspan(kind.parameters.size()));
+        kind.derive(content_extent(part, 0.0f, definitions), part.values,
+                    std::span(part.values).subspan(kind.parameters.size()));
     }
 
-    const Extent own = own_extent(part, 0.0f);
+    const Extent own = own_extent(part, 0.0f, definitions);
     part.region = with_margin(own.box);
     part.extent.box = to_parent(part, own.box);
     for (int axis = 0; axis < 3; ++axis)
@@ -90,7 +138,8 @@ FieldNode prepare(const Scene& scene, const Node& node, std::uint32_t inherited)
 }  // namespace
 
 FieldTree::FieldTree(const Scene& scene) {
-    if (!is_empty(scene.root)) root = prepare(scene, scene.root, 0);
+    Definitions prepared(scene, definitions);
+    if (!is_empty(scene.root, prepared.filled)) root = prepare(scene.root, 0, prepared);
 }
 
 const FieldNode* find(const FieldNode& node, Id id) {

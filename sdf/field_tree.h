@@ -6,6 +6,10 @@
 // raised by what it adds (KindInfo::reach); where a distance is a bound its levels reach further than the shape, and so
 // does the box. All is conservative, nothing is minimal.
 //
+// Definitions are prepared once, however many instances show them. The box of one at another level is kept for the next
+// instance that asks for it; such levels are rounded up to a few for each octave, or definitions that use each other at
+// different scales and blends would ask for a number of levels that grows exponentially.
+//
 // Safe steps. Every node's field is 1-Lipschitz in its own frame, so that a step as long as its value is safe and
 // blends of it stay so. Isometries, combinations and scales (which multiply the distance) keep that by themselves. What
 // stretches the domain divides by the stretch, which follows from its parameters and the bounds of its content, and at
@@ -26,6 +30,9 @@ namespace farfield {
 /// What a scene without any shape answers, metres: far beyond everything that a ray may reach.
 inline constexpr float empty_distance = 1e9f;
 
+/// In place of a material's index in definitions: that of the instance.
+inline constexpr std::uint32_t inherited_material = 0xffffffff;
+
 struct FieldNode {
     Id id;
     std::string name;
@@ -34,22 +41,25 @@ struct FieldNode {
     glm::vec3 translate;
     glm::mat3 to_own;  ///< inverse rotation
     float scale;
-    std::uint32_t material;  ///< index
+    std::uint32_t material;  ///< index, or inherited_material
     Box region;              ///< what the node fills in its own frame; stretched content is evaluated within it
     Extent extent;           ///< the same in the parent's frame
     std::vector<FieldNode> children;
+    std::size_t definition = 0;  ///< instances: index in FieldTree::definitions
 
     /// How much the node would shorten steps at worst: the Lipschitz constant of its field before it is made safe.
     float stretch() const { return kind->stretch ? kind->stretch(values) : 1.0f; }
 };
 
 struct FieldTree {
+    /// The scene must have no nesting problem (see scene.h).
     explicit FieldTree(const Scene& scene);
 
     /// Of the whole scene, world frame; unbounded along axes where it has no end. A point for an empty scene.
     Box bounds() const { return root ? root->extent.box : Box{glm::vec3(0.0f), glm::vec3(0.0f)}; }
 
-    std::optional<FieldNode> root;  ///< none when the scene adds no shape
+    std::optional<FieldNode> root;       ///< none when the scene adds no shape
+    std::vector<FieldNode> definitions;  ///< those that show, each after all that it uses
 };
 
 /// The node below `node` (itself included) with this id; null where it adds no shape.

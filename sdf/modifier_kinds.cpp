@@ -311,6 +311,11 @@ void add_modifiers(std::vector<KindInfo>& t) {
     noise.reach = [](Values v) { return 2.0f * v[0].x; };
     noise.stretch = [](Values v) { return 1.0f + 3.75f * v[2].x * v[0].x / v[1].x; };
     t.push_back(noise);
+
+    t.push_back(make_modifier(K::instance, "instance", "Instance",
+                              "A definition, shown here as if it were copied; materials that it leaves open are the "
+                              "instance's",
+                              Role::instance, true, {}, ""));
 }
 
 }  // namespace farfield

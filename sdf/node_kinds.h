@@ -85,6 +85,7 @@ enum class NodeKind {
     round,
     displace_sine,
     displace_noise,
+    instance,
 };
 
 /// How the generated code uses the kind's function of shapes.glsl or operations.glsl.
@@ -94,6 +95,7 @@ enum class Role {
     domain,     ///< vec3 f(vec3 p, parameters...), or none: moves the point before the children (a hard union) see it
     repeat,     ///< vec3 f(vec3 p, parameters..., derived..., int cell): as domain, and the least over its cells counts
     distance,   ///< float f(float d, parameters...): changes the distance of the children (a hard union)
+    instance,   ///< shows a definition (see Scene); no children, no function
 };
 
 /// Parameter values in code units (see to_code_units), in the table's order; the derived ones follow.
@@ -160,7 +162,7 @@ struct KindInfo {
     /// firmly nonexpansive.
     bool confined;
 
-    bool takes_children() const { return role != Role::primitive; }
+    bool takes_children() const { return role != Role::primitive && role != Role::instance; }
 };
 
 std::span<const KindInfo> node_kinds();

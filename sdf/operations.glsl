@@ -307,21 +307,27 @@ vec3 taper(vec3 p, float rate, float narrowest, float reach) {
     return vec3(p.x * inwards, p.y, p.z * inwards);
 }
 
-// The norm of (1 / narrowest, slope; 0, 1), the derivative of taper where it is largest: content narrowest there, and
-// `reach` from the axis, where the width changes with height by slope = reach |rate| / narrowest.
-float taper_stretch(float rate, float narrowest, float reach) {
-    float a = 1.0f / narrowest;
-    float b = reach * abs(rate) * a;
+// The norm of (a, b; 0, 1): how much the taper stretches where the width is 1 / a and changes across by b for each metre up.
+float taper_norm(float a, float b) {
     float sum = a * a + b * b + 1.0f;
     return sqrt(0.5f * (sum + sqrt(max(sum * sum - 4.0f * a * a, 0.0f))));
 }
 
-// The content keeps within a frustum of slope k = reach |rate|. How far p is out of it, measured across, grows by up to
-// sqrt(1 + k²); the content's distance at its edge does not depend on how far, so taper_stretch holds there too.
+float taper_stretch(float rate, float narrowest, float reach) {
+    return taper_norm(1.0f / narrowest, reach * abs(rate) / narrowest);
+}
+
+// Where the width is w the stretch is at most n / min(w, 1), n = taper_norm(1, slope) with slope = reach |rate|, and on a
+// path of length r the width shrinks by at most |rate| r: so r = d w / (n + |rate| d) is safe, up to d / n; and everywhere
+// the stretch at the narrowest place is. All of these are 1-Lipschitz. The content keeps within a frustum of that slope; how
+// far p is out of it, measured across, grows by up to sqrt(1 + slope²). Out there the content's distance does not change
+// with how far, so the same stretch holds.
 float taper_distance(float d, vec3 p, float rate, float narrowest, float reach) {
-    float k = reach * abs(rate);
-    float outside = length(vec2(p.x, p.z)) - reach * taper_width(p.y, rate);
-    return max(d / taper_stretch(rate, narrowest, reach), outside / sqrt(1.0f + k * k));
+    float slope = reach * abs(rate);
+    float n = taper_norm(1.0f, slope);
+    float width = taper_width(p.y, rate);
+    float share = max(min(1.0f / n, width / (n + abs(rate * d))), 1.0f / taper_stretch(rate, narrowest, reach));
+    return max(d * share, (length(vec2(p.x, p.z)) - reach * width) / sqrt(1.0f + slope * slope));
 }
 
 // Scales each axis by a factor of its own. Along the axis of the smallest one distances shrink by that much.

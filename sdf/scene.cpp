@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <unordered_map>
 #include <utility>
 
 namespace farfield {
@@ -29,6 +31,80 @@ const Node* find_parent_below(const Node& node, Id id) {
     }
     return nullptr;
 }
+
+template <class Visit>
+void visit_nodes(const Node& node, Visit visit) {
+    visit(node);
+    for (const Node& child : node.children) visit_nodes(child, visit);
+}
+
+/// Visits each definition once, after those that it uses.
+template <class Visit>
+void visit_definitions(const Scene& scene, Visit visit) {
+    std::unordered_map<Id, const Node*> waiting;
+    for (const Node& definition : scene.definitions) waiting.emplace(definition.id, &definition);
+    const auto visit_one = [&](const auto& self, Id id) -> void {
+        const auto found = waiting.find(id);
+        if (found == waiting.end()) return;
+        const Node& definition = *found->second;
+        waiting.erase(found);
+        visit_nodes(definition, [&](const Node& node) { self(self, node.definition); });
+        visit(definition);
+    };
+    for (const Node& definition : scene.definitions) visit_one(visit_one, definition.id);
+}
+
+using Counts = std::unordered_map<Id, std::uint64_t>;
+
+std::uint64_t expanded_count(const Node& node, const Counts& of_definitions) {
+    const auto sum = [](std::uint64_t a, std::uint64_t b) {
+        return a > std::numeric_limits<std::uint64_t>::max() - b ? std::numeric_limits<std::uint64_t>::max() : a + b;
+    };
+    std::uint64_t count = 1;
+    if (const auto found = of_definitions.find(node.definition); found != of_definitions.end())
+        count = sum(count, found->second);
+    for (const Node& child : node.children) count = sum(count, expanded_count(child, of_definitions));
+    return count;
+}
+
+/// Finds definitions without end, and measures how deep the others are.
+class Nesting {
+public:
+    explicit Nesting(const Scene& scene) {
+        for (const Node& definition : scene.definitions) definitions_.emplace(definition.id, Entry{&definition});
+    }
+
+    /// The height of a node that stands `depth` nodes below the one where the search began.
+    int height(const Node& node, int depth) {
+        int below = 0;
+        if (depth >= largest_depth) problem = NestingProblem{node.id, false};
+        if (problem) return 0;
+        if (const auto found = definitions_.find(node.definition); found != definitions_.end())
+            below = height(found->second, node, depth + 1);
+        for (const Node& child : node.children)
+            if (!problem) below = std::max(below, height(child, depth + 1));
+        if (!problem && below >= largest_depth) problem = NestingProblem{node.id, false};
+        return 1 + below;
+    }
+
+    std::optional<NestingProblem> problem;
+
+private:
+    struct Entry {
+        const Node* node;
+        bool open = false;
+        int height = 0;  ///< 0: not known yet
+    };
+    int height(Entry& entry, const Node& instance, int depth) {
+        if (entry.open) problem = NestingProblem{instance.id, true};
+        if (problem || entry.height > 0) return entry.height;
+        entry.open = true;
+        entry.height = height(*entry.node, depth);
+        entry.open = false;
+        return entry.height;
+    }
+    std::unordered_map<Id, Entry> definitions_;
+};
 
 }  // namespace
 
@@ -62,30 +138,95 @@ Node make_node(NodeKind kind) {
     return node;
 }
 
-const Node* find_node(const Scene& scene, Id id) { return id == 0 ? nullptr : find_below(scene.root, id); }
+Node make_instance(const Node& definition) {
+    Node node = make_node(NodeKind::instance);
+    node.definition = definition.id;
+    return node;
+}
+
+const Node* find_node(const Scene& scene, Id id) {
+    if (id == 0) return nullptr;
+    if (const Node* found = find_below(scene.root, id)) return found;
+    for (const Node& definition : scene.definitions)
+        if (const Node* found = find_below(definition, id)) return found;
+    return nullptr;
+}
 Node* find_node(Scene& scene, Id id) { return const_cast<Node*>(find_node(std::as_const(scene), id)); }
-const Node* find_parent(const Scene& scene, Id id) { return id == 0 ? nullptr : find_parent_below(scene.root, id); }
+const Node* find_parent(const Scene& scene, Id id) {
+    if (id == 0) return nullptr;
+    if (const Node* found = find_parent_below(scene.root, id)) return found;
+    for (const Node& definition : scene.definitions)
+        if (const Node* found = find_parent_below(definition, id)) return found;
+    return nullptr;
+}
 const Material* find_material(const Scene& scene, Id id) { return find_by_id(scene.materials, id); }
 const Light* find_light(const Scene& scene, Id id) { return find_by_id(scene.lights, id); }
+const Node* find_definition(const Scene& scene, Id id) { return find_by_id(scene.definitions, id); }
 
 std::string display_name(const Node& node) { return node.name.empty() ? info(node.kind).label : node.name; }
+
+std::string display_name(const Scene& scene, const Node& node) {
+    const Node* definition = node.name.empty() ? find_definition(scene, node.definition) : nullptr;
+    return definition ? "instance of " + definition->name : display_name(node);
+}
 
 std::uint32_t material_index(const Scene& scene, Id id, std::uint32_t inherited) {
     const Material* material = find_material(scene, id);
     return material ? static_cast<std::uint32_t>(material - scene.materials.data()) : inherited;
 }
 
-bool is_empty(const Node& node) {
+bool is_empty(const Scene& scene, const Node& node) { return is_empty(node, filled_definitions(scene)); }
+
+std::set<Id> filled_definitions(const Scene& scene) {
+    std::set<Id> filled;
+    visit_definitions(scene, [&](const Node& definition) {
+        if (!is_empty(definition, filled)) filled.insert(definition.id);
+    });
+    return filled;
+}
+
+bool is_empty(const Node& node, const std::set<Id>& filled_definitions) {
+    if (node.kind == NodeKind::instance) return !filled_definitions.contains(node.definition);
     if (!info(node.kind).takes_children()) return false;
+    const auto is_empty_too = [&](const Node& child) { return is_empty(child, filled_definitions); };
     if (node.children.empty()) return true;
-    if (node.kind == NodeKind::subtract) return is_empty(node.children[0]);
-    return std::all_of(node.children.begin(), node.children.end(), is_empty);
+    if (node.kind == NodeKind::subtract) return is_empty_too(node.children[0]);
+    return std::all_of(node.children.begin(), node.children.end(), is_empty_too);
 }
 
 int count_nodes(const Node& node) {
     int count = 1;
     for (const Node& child : node.children) count += count_nodes(child);
     return count;
+}
+
+int count_nodes(const Scene& scene) {
+    int count = count_nodes(scene.root);
+    for (const Node& definition : scene.definitions) count += count_nodes(definition);
+    return count;
+}
+
+std::uint64_t expanded_node_count(const Scene& scene) {
+    Counts counts;
+    visit_definitions(scene,
+                      [&](const Node& definition) { counts[definition.id] = expanded_count(definition, counts); });
+    return expanded_count(scene.root, counts);
+}
+
+int count_uses(const Scene& scene, Id definition) {
+    int count = 0;
+    const auto look = [&](const Node& node) { count += definition != 0 && node.definition == definition; };
+    visit_nodes(scene.root, look);
+    for (const Node& other : scene.definitions) visit_nodes(other, look);
+    return count;
+}
+
+std::optional<NestingProblem> find_nesting_problem(const Scene& scene) {
+    Nesting nesting(scene);
+    nesting.height(scene.root, 0);
+    for (const Node& definition : scene.definitions)
+        if (!nesting.problem) nesting.height(definition, 0);
+    return nesting.problem;
 }
 
 }  // namespace farfield

@@ -8,6 +8,8 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -32,7 +34,8 @@ struct Node {
     std::string name;               ///< unique in the scene when not empty
     std::vector<glm::vec3> values;  ///< one for each parameter of the kind, in the table's order
     Transform transform;
-    Id material = 0;  ///< 0: that of the nearest ancestor that has one, or the scene's first material
+    Id material = 0;    ///< 0: that of the nearest ancestor that has one, or the scene's first material
+    Id definition = 0;  ///< instances: what they show, one of Scene::definitions
     std::vector<Node> children;
 };
 
@@ -84,6 +87,7 @@ struct Settings {
 
 struct Scene {
     Node root;                        ///< a union named "scene"; never removed
+    std::vector<Node> definitions;    ///< named subtrees, each in its own frame, that show where instances place them
     std::vector<Material> materials;  ///< never empty
     std::vector<Light> lights;
     Sky sky;
@@ -98,23 +102,48 @@ struct Scene {
 
 /// A node of `kind` with default values, no name and id 0 (inserting it assigns ids).
 Node make_node(NodeKind kind);
+Node make_instance(const Node& definition);
 
+/// In the tree and in the definitions.
 const Node* find_node(const Scene& scene, Id id);
 Node* find_node(Scene& scene, Id id);
-/// The parent of node `id`; null for the root and for unknown ids.
+/// The parent of node `id`; null for the root, for definitions and for unknown ids.
 const Node* find_parent(const Scene& scene, Id id);
 const Material* find_material(const Scene& scene, Id id);
 const Light* find_light(const Scene& scene, Id id);
+/// Null for ids of anything but a definition.
+const Node* find_definition(const Scene& scene, Id id);
 
 /// What the user calls the node: its name, or the kind's label where it has none.
 std::string display_name(const Node& node);
+/// The same, but an instance without a name says of what: "instance of column".
+std::string display_name(const Scene& scene, const Node& node);
 
 /// Index in scene.materials of material `id`; `inherited` for 0 and unknown ids.
 std::uint32_t material_index(const Scene& scene, Id id, std::uint32_t inherited);
 
-/// Whether the node adds no shape: a group without shapes below it, or a subtraction from such.
-bool is_empty(const Node& node);
+/// Whether the node adds no shape: a group without shapes below it, a subtraction from such, an instance of such.
+bool is_empty(const Scene& scene, const Node& node);
+bool is_empty(const Node& node, const std::set<Id>& filled_definitions);
+std::set<Id> filled_definitions(const Scene& scene);  ///< those that are not empty
 
-int count_nodes(const Node& node);  ///< itself and everything below
+int count_nodes(const Node& node);    ///< itself and everything below
+int count_nodes(const Scene& scene);  ///< the root, the definitions and everything below
+/// How many nodes the tree would have with the content of its definition below each instance: what a compiler that
+/// inlines every call has to deal with. Definitions that use each other double that easily; the largest value stands
+/// for everything beyond.
+std::uint64_t expanded_node_count(const Scene& scene);
+/// How many instances of the definition there are, in the tree and in other definitions.
+int count_uses(const Scene& scene, Id definition);
+
+/// So many nodes can be inside one another, through instances too. Files have the same limit: see scene_reader.
+inline constexpr int largest_depth = 499;
+
+/// What keeps a scene from having an end.
+struct NestingProblem {
+    Id node;       ///< where it shows
+    bool endless;  ///< an instance inside its own definition, directly or through others; otherwise nested too deep
+};
+std::optional<NestingProblem> find_nesting_problem(const Scene& scene);
 
 }  // namespace farfield

@@ -15,11 +15,13 @@ inline constexpr const char* settings = "settings";
 inline constexpr const char* sky = "sky";
 inline constexpr const char* materials = "materials";
 inline constexpr const char* lights = "lights";
+inline constexpr const char* definitions = "definitions";
 inline constexpr const char* root = "root";
 
 // Keys of a node (and `kind` of a light) beside its parameters.
 inline constexpr const char* kind = "kind";
 inline constexpr const char* name = "name";
+inline constexpr const char* of = "of";  ///< of an instance: the name of its definition
 inline constexpr const char* material = "material";
 inline constexpr const char* children = "children";
 

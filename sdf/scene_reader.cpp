@@ -35,7 +35,7 @@ public:
         check_version(document, top);
         check_keys(object, top,
                    {format::schema, format::version_key, format::camera, format::settings, format::sky,
-                    format::materials, format::lights, format::root});
+                    format::materials, format::lights, format::definitions, format::root});
         if (const Json* schema = document.find(format::schema)) {
             const auto* text = schema->as<std::string>();
             if (!text) unexpected({&top, format::schema}, *schema, "a text, where the format's JSON Schema is");
@@ -49,12 +49,22 @@ public:
         else
             material_ids_.emplace(scene_.materials.front().name, scene_.materials.front().id);
         if (const Json* lights = document.find(format::lights)) read_lights(*lights, {&top, format::lights});
+        const JsonPath definitions_path{&top, format::definitions};
+        const Json* definitions = document.find(format::definitions);
+        if (definitions) read_definitions(*definitions, definitions_path);
         const Json* root = document.find(format::root);
         if (!root) fail(top, document.line, "has no \"root\", expected the union that holds the scene's nodes");
         scene_.root = read_node(*root, {&top, format::root, -1, root});
         if (scene_.root.kind != NodeKind::union_)
             fail({&top, format::root}, root->line,
                  fmt::format("is a {}, expected a union", info(scene_.root.kind).key));
+        if (const auto problem = find_nesting_problem(scene_)) {
+            report(*problem, *root, {&top, format::root, -1, root}, scene_.root);
+            const auto& array = *definitions->as<Json::Array>();
+            for (size_t i = 0; i < array.size(); ++i)
+                report(*problem, array[i], {&definitions_path, {}, static_cast<int>(i), &array[i]},
+                       scene_.definitions[i]);
+        }
         return std::move(scene_);
     }
 
@@ -216,6 +226,47 @@ private:
         }
     }
 
+    /// Names come first: a node may refer to a definition that comes later.
+    void read_definitions(const Json& json, const JsonPath& path) {
+        const auto* array = json.as<Json::Array>();
+        if (!array) unexpected(path, json, "an array of nodes");
+        std::vector<Id> ids;
+        for (const Json& definition : *array) {
+            ids.push_back(scene_.new_id());
+            const auto* object = definition.as<Json::Object>();
+            const Json* name = object ? definition.find(format::name) : nullptr;
+            if (const auto* text = name ? name->as<std::string>() : nullptr)
+                if (definition_ids_.emplace(*text, ids.back()).second) definition_names_.push_back(*text);
+        }
+        for (size_t i = 0; i < array->size(); ++i) {
+            const JsonPath here{&path, {}, static_cast<int>(i), &(*array)[i]};
+            Node definition = read_node((*array)[i], here);
+            if (definition.name.empty())
+                fail(here, (*array)[i].line, "has no \"name\", expected one, by which instances refer to it");
+            definition.id = ids[i];
+            scene_.definitions.push_back(std::move(definition));
+        }
+    }
+
+    /// Fails at the node with the problem, if that is below `node`.
+    void report(const NestingProblem& problem, const Json& json, const JsonPath& path, const Node& node) const {
+        if (node.id == problem.node && problem.endless)
+            fail({&path, format::of}, json.find(format::of)->line,
+                 fmt::format("found {}, expected a definition that does not contain this instance itself",
+                             description(*json.find(format::of))));
+        if (node.id == problem.node)
+            fail(path, json.line,
+                 fmt::format("is too deep, expected at most {} nodes inside one another, instances "
+                             "counted with what they show",
+                             largest_depth));
+        const Json* children = json.find(format::children);
+        const JsonPath inside{&path, format::children};
+        for (size_t i = 0; i < node.children.size(); ++i) {
+            const Json& child = (*children->as<Json::Array>())[i];
+            report(problem, child, {&inside, {}, static_cast<int>(i), &child}, node.children[i]);
+        }
+    }
+
     Node read_node(const Json& json, const JsonPath& path) {
         const Json::Object& object = object_in(json, path, "a node");
         Keys kinds;
@@ -224,8 +275,11 @@ private:
 
         if (const Json* children = kind.takes_children() ? nullptr : json.find(format::children))
             fail({&path, format::children}, children->line,
-                 fmt::format("found {}, expected none: a {} has no children", description(*children), kind.key));
+                 fmt::format("found {}, expected none: {} {} has no children", description(*children),
+                             std::string_view("aeiou").find(kind.key[0]) == std::string_view::npos ? "a" : "an",
+                             kind.key));
         Keys keys{format::kind, format::name, format::material};
+        if (kind.role == Role::instance) keys.push_back(format::of);
         for (const Parameter& parameter : kind.parameters) keys.push_back(parameter.key);
         add_keys<Transform>(keys, always);
         if (kind.takes_children()) keys.push_back(format::children);
@@ -235,6 +289,7 @@ private:
         node.id = scene_.new_id();
         node.name = read_node_name(json, path);
         node.material = read_material_reference(json, path);
+        if (kind.role == Role::instance) node.definition = read_definition_reference(json, path);
         for (size_t i = 0; i < kind.parameters.size(); ++i)
             if (const Json* value = json.find(kind.parameters[i].key))
                 node.values[i] = read_value(*value, kind.parameters[i], {&path, kind.parameters[i].key});
@@ -280,9 +335,29 @@ private:
              fmt::format("there is no material {}, {}", description(*json), expected_one_of(known, *name)));
     }
 
+    Id read_definition_reference(const Json& node, const JsonPath& node_path) const {
+        const Json* json = node.find(format::of);
+        if (!json)
+            fail(node_path, node.line, fmt::format("has no \"{}\", expected the name of a definition", format::of));
+        const JsonPath path{&node_path, format::of};
+        const auto* name = json->as<std::string>();
+        if (!name) unexpected(path, *json, "the name of a definition");
+        if (auto found = definition_ids_.find(*name); found != definition_ids_.end()) return found->second;
+        if (definition_names_.empty())
+            fail(path, json->line,
+                 fmt::format("there is no definition {}: the file has no \"{}\"", description(*json),
+                             format::definitions));
+        const Keys known(definition_names_.begin(),
+                         definition_names_.begin() + std::min<std::ptrdiff_t>(20, std::ssize(definition_names_)));
+        fail(path, json->line,
+             fmt::format("there is no definition {}, {}", description(*json), expected_one_of(known, *name)));
+    }
+
     const std::string& file_;
     Scene scene_;
     std::unordered_map<std::string, Id> material_ids_;
+    std::unordered_map<std::string, Id> definition_ids_;
+    std::vector<std::string> definition_names_;
     std::unordered_map<std::string, int> node_lines_;  ///< names that are taken and where
 };
 

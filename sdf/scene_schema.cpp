@@ -101,7 +101,11 @@ Schema node(const KindInfo& kind) {
     for (const Parameter& parameter : kind.parameters) properties[parameter.key] = value(parameter);
     for (const Field<Transform>& field : fields<Transform>()) properties[field.parameter.key] = true;
     if (kind.takes_children()) properties[format::children] = true;
-    return object(kind.tip, std::move(properties));
+    if (kind.role != Role::instance) return object(kind.tip, std::move(properties));
+    properties[format::of] = {{"description", "Name of the definition"}, {"type", "string"}};
+    Schema instance = object(kind.tip, std::move(properties));
+    instance["required"] = {format::of};
+    return instance;
 }
 
 Schema any_node() {
@@ -153,6 +157,9 @@ Schema scene() {
                                   {"type", "object"},
                                   {"propertyNames", reference("name")},
                                   {"additionalProperties", reference("light")}};
+    properties[format::definitions] = {{"description", "Subtrees that show where instances of them are"},
+                                       {"type", "array"},
+                                       {"items", {{"allOf", {reference("node"), {{"required", {format::name}}}}}}}};
     properties[format::root] = {
         {"description", "The union that holds all other nodes"},
         {"allOf", {reference("node"), {{"properties", {{format::kind, {{"const", info(NodeKind::union_).key}}}}}}}}};

@@ -5,6 +5,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <unordered_map>
+
 namespace farfield {
 namespace {
 
@@ -27,6 +29,7 @@ std::string text_of(const Parameter& parameter, glm::vec3 value) {
 class Writer {
 public:
     explicit Writer(const Scene& scene) : scene_(scene) {
+        for (const Node& definition : scene.definitions) definition_names_.emplace(definition.id, definition.name);
         begin({}, '{');
         if (!scene.schema.empty()) line(format::schema, text_of(scene.schema));
         line(format::version_key, fmt::format("{}", format::version));
@@ -49,6 +52,11 @@ public:
                 end('}');
             }
             end('}');
+        }
+        if (!scene.definitions.empty()) {
+            begin(format::definitions, '[');
+            for (const Node& definition : scene.definitions) node({}, definition);
+            end(']');
         }
         node(format::root, scene.root);
         end('}');
@@ -113,6 +121,8 @@ private:
         begin(key, '{');
         line(format::kind, text_of(kind.key));
         if (!node.name.empty()) line(format::name, text_of(node.name));
+        if (const auto of = definition_names_.find(node.definition); of != definition_names_.end())
+            line(format::of, text_of(of->second));
         if (const Material* material = find_material(scene_, node.material))
             line(format::material, text_of(material->name));
         for (size_t i = 0; i < kind.parameters.size(); ++i)
@@ -127,6 +137,7 @@ private:
     }
 
     const Scene& scene_;
+    std::unordered_map<Id, std::string> definition_names_;
     std::string text_;
     int depth_ = 0;
     bool first_ = true;  ///< of the items in the innermost container

@@ -1,5 +1,6 @@
 #include "sdf/shape_library.h"
 
+#include <algorithm>
 #include <cctype>
 #include <set>
 #include <utility>
@@ -59,10 +60,19 @@ std::vector<Function> parse() {
     return functions;
 }
 
+const std::vector<Function>& library() {
+    static const std::vector<Function> functions = parse();
+    return functions;
+}
+
 }  // namespace
 
+bool is_shape(std::string_view name) {
+    return std::any_of(library().begin(), library().end(), [&](const Function& f) { return f.name == name; });
+}
+
 std::string used_shapes(std::string_view code) {
-    static const std::vector<Function> functions = parse();
+    const std::vector<Function>& functions = library();
     std::set<std::string> wanted = identifiers(code);
     // A function calls only those before it, so one pass from the end finds all. A name that is wanted later, by a
     // function before it, is a local variable's.

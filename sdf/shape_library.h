@@ -10,4 +10,7 @@ namespace farfield {
 /// comments, each followed by an empty line.
 std::string used_shapes(std::string_view code);
 
+/// Whether one of them has this name.
+bool is_shape(std::string_view name);
+
 }  // namespace farfield

@@ -174,7 +174,7 @@ TEST(Edit, EveryResultIsAValidScene) {
         if (i % 10 == 0) {
             ASSERT_NO_THROW(parse_scene(to_text(scene), "memory")) << to_text(scene);
         }
-        if (count_nodes(scene.root) > 60) scene = random_scene(static_cast<unsigned>(i), 12);
+        if (count_nodes(scene) > 60) scene = random_scene(static_cast<unsigned>(i), 12);
     }
     EXPECT_GT(carried_out, 1000);
 }
@@ -201,7 +201,7 @@ TEST(History, UndoAllRestoresTheStartAndRedoAllTheEnd) {
 TEST(History, IdsAreNeverReused) {
     History history;
     std::set<Id> seen;
-    for (const Id id : all_ids(history.scene().root)) seen.insert(id);
+    for (const Id id : all_ids(history.scene())) seen.insert(id);
     for (int i = 0; i < 20; ++i) {
         const Id id = history.apply(InsertNode{history.scene().root.id, -1, make_node(NodeKind::sphere)});
         EXPECT_TRUE(seen.insert(id).second) << "id " << id;

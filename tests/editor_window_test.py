@@ -343,6 +343,24 @@ def reload(editor, scene, copy):
     check(copy.read_bytes() == scene.read_bytes(), "a file that was opened and saved is the same file")
 
 
+def define_and_free(editor):
+    editor.click("tree/Sphere")
+    editor.wait("the sphere is selected", lambda r: r["selection"] == "Sphere")
+    editor.key("ctrl+i")
+    report = editor.wait("an instance is selected", lambda r: r["selection"] == "instance of Sphere")
+    editor.place("tree/Sphere")  # below, among the definitions
+    editor.click("inspector/go_to_definition")
+    editor.wait("the definition is selected", lambda r: r["selection"] == "Sphere")
+    editor.click("tree_panel/add")
+    editor.click("add/Instance of Sphere")
+    editor.wait("a second instance", lambda r: r["selection"] == "instance of Sphere" and r["revision"] > report["revision"])
+    editor.key("ctrl+shift+i")
+    report = editor.wait("a copy", lambda r: r["selection"] == "Sphere 2")
+    check(report["error"] == "", f"no error, not: {report['error']}")
+    editor.key("ctrl+s")
+    editor.wait("saved", lambda r: r["saved"])
+
+
 def show_error(editor, bad):
     bad.write_text('{"farfield": 1, "root": {"kind": "union", "children": [{"kind": "sphere", "radius": -1}]}}')
     before = editor.report()
@@ -374,10 +392,11 @@ def main():
                 lambda: move_slider(editor, "ao_radius", 0.4, keeps_samples=True),
                 lambda: save(editor, scene, original),
                 lambda: reload(editor, scene, Path(folder) / "copy.json"),
+                lambda: define_and_free(editor),
                 lambda: show_error(editor, Path(folder) / "bad.json"),
             ]
             names = ["start", "read the code", "type without traces", "add a sphere under a union", "type values", "drag a radius", "sample count",
-                     "blur levels", "AO radius", "save", "reload", "an error in a file"]
+                     "blur levels", "AO radius", "save", "reload", "define and free", "an error in a file"]
             for name, step in zip(names, steps):
                 print(f"{name} ...", flush=True)
                 try:

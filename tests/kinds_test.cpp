@@ -71,6 +71,11 @@ Scene scene_of(const KindInfo& kind, Spread spread, std::mt19937& random) {
         ball.transform.translate = {0.15f, 0.1f, 0.0f};
         node.children = {box, ball};
     }
+    if (kind.role == Role::instance) {
+        Node box = make_node(NodeKind::rounded_box);
+        box.id = node.definition = scene.new_id();
+        scene.definitions.push_back(box);
+    }
     scene.root.children.push_back(node);
     return scene;
 }

@@ -180,8 +180,8 @@ TEST_F(March, FindsWhatTinyStepsFind) {
     const Case cases[] = {
         {K::twist, {{x(-40.0f)}, {x(700.0f)}, {x(3000.0f)}}},
         {K::bend, {{x(-120.0f)}, {x(400.0f)}}},
-        {K::taper, {{x(1.9f)}, {x(-30.0f)}}},
-        {K::stretch, {{{0.05f, 3.0f, 0.4f}}, {{30.0f, 0.01f, 1.0f}}}},
+        {K::taper, {{x(1.9f)}, {x(-6.0f)}}},
+        {K::stretch, {{{0.05f, 3.0f, 0.4f}}, {{0.3f, 4.0f, 0.08f}}}},
         {K::displace_sine, {{x(0.1f), x(0.08f)}, {x(0.3f), x(0.05f)}}},
         {K::displace_noise, {{x(0.1f), x(0.1f), x(8.0f)}, {x(0.02f), x(0.01f), x(2.0f)}}},
         {K::repeat, {{{0.3f, 0.0f, 0.21f}, {4.0f, 1.0f, 3.0f}}, {{0.7f, 0.9f, 0.8f}, {2.0f, 3.0f, 2.0f}}}},

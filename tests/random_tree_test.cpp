@@ -26,7 +26,7 @@ enum class Repeated { primitives, anything };
 Node random_tree(int depth, Repeated repeated, std::mt19937& random) {
     std::vector<NodeKind> kinds;
     for (const KindInfo& kind : node_kinds())
-        if (kind.takes_children() == (depth > 1)) kinds.push_back(kind.kind);
+        if (kind.takes_children() == (depth > 1) && kind.role != Role::instance) kinds.push_back(kind.kind);
     Node node = make_node(kinds[random() % kinds.size()]);
     const KindInfo& kind = info(node.kind);
     for (std::size_t i = 0; i < node.values.size(); ++i) node.values[i] = random_value(kind.parameters[i], random);

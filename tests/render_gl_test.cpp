@@ -103,7 +103,7 @@ TEST_F(Render, ParameterEditsNeverRecompileAndEqualAFreshLoad) {
     render(scene, 1, live);
     EXPECT_EQ(renderer_->statistics().structural_compiles, 1);
     std::mt19937 random(9);
-    const std::vector<Id> ids = all_ids(scene.root);
+    const std::vector<Id> ids = all_ids(scene);
     for (int i = 0; i < 100; ++i) {
         const ObjectRef node{ObjectType::node, ids[random() % ids.size()]};
         const std::vector<Parameter> all = parameters(scene, node);

@@ -145,9 +145,10 @@ TEST(SceneFileError, UnknownKey) {
     expect_error(
         "\"radius\"", "\"raduis\"", 19, "root/children[0] \"ball\"/raduis",
         "unknown key, expected one of kind, name, material, radius, translate, rotate, scale (perhaps radius)");
-    expect_error("\"camera\"", "\"kamera\"", 3, "kamera",
-                 "unknown key, expected one of $schema, farfield, camera, settings, sky, materials, lights, root "
-                 "(perhaps camera)");
+    expect_error(
+        "\"camera\"", "\"kamera\"", 3, "kamera",
+        "unknown key, expected one of $schema, farfield, camera, settings, sky, materials, lights, definitions, root "
+        "(perhaps camera)");
     expect_error("\"position\"", "\"zoom\"", 4, "camera/zoom",
                  "unknown key, expected one of position, target, field_of_view");
     expect_error("\"albedo\"", "\"color\"", 9, "materials/red/color",

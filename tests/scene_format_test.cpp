@@ -65,7 +65,9 @@ std::string documented_tables() {
     add_kinds(text, "Primitives (no children)", [](const KindInfo& k) { return k.role == Role::primitive; });
     add_kinds(text, "Combinations of children", [](const KindInfo& k) { return k.role == Role::combine; });
     add_kinds(text, "Modifiers (of the union of their children)",
-              [](const KindInfo& k) { return k.role != Role::primitive && k.role != Role::combine; });
+              [](const KindInfo& k) { return k.takes_children() && k.role != Role::combine; });
+    add_kinds(text, "Instances of definitions (no children)",
+              [](const KindInfo& k) { return k.role == Role::instance; });
     return text + "\n";
 }
 
@@ -83,9 +85,9 @@ TEST(SceneFormat, ReadmeShowsTheProgramsTables) {
 
 TEST(SceneFormat, ReadmeNamesEveryKey) {
     const std::string text = read_text(readme());
-    for (const char* key :
-         {format::schema, format::version_key, format::camera, format::settings, format::sky, format::materials,
-          format::lights, format::root, format::kind, format::name, format::material, format::children})
+    for (const char* key : {format::schema, format::version_key, format::camera, format::settings, format::sky,
+                            format::materials, format::lights, format::definitions, format::root, format::kind,
+                            format::name, format::of, format::material, format::children})
         EXPECT_NE(text.find(fmt::format("`{}`", key)), std::string::npos) << key;
     for (const char* kind : light_kind_keys)
         EXPECT_NE(text.find(fmt::format("\"{}\"", kind)), std::string::npos) << kind;
@@ -109,7 +111,7 @@ TEST(SceneFormat, ReadmeExamplesAreScenes) {
 /// The keys by which values are found must differ from one another and from the format's own.
 TEST(SceneFormat, KeysOfANodeDiffer) {
     for (const KindInfo& kind : node_kinds()) {
-        std::vector<std::string_view> keys{format::kind, format::name, format::material, format::children};
+        std::vector<std::string_view> keys{format::kind, format::name, format::of, format::material, format::children};
         for (const Parameter& parameter : kind.parameters) keys.push_back(parameter.key);
         for (const Field<Transform>& field : fields<Transform>()) keys.push_back(field.parameter.key);
         std::sort(keys.begin(), keys.end());

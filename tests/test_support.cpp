@@ -1,6 +1,6 @@
 #include "tests/test_support.h"
 
-#include "sdf/fields.h"
+#include "sdf/edit.h"
 
 #include <fmt/format.h>
 
@@ -19,15 +19,25 @@ namespace {
 float uniform(std::mt19937& random) { return static_cast<float>(random() >> 8) * 0x1p-24f; }
 int below(std::mt19937& random, size_t count) { return static_cast<int>(random() % static_cast<unsigned>(count)); }
 
+Node& find_below(Node& node, Id id) {
+    if (node.id == id) return node;
+    for (Node& child : node.children)
+        if (const std::vector<Id> ids = all_ids(child); std::find(ids.begin(), ids.end(), id) != ids.end())
+            return find_below(child, id);
+    throw std::logic_error("no such node");
+}
+
 template <class T>
 void randomise(T& object, std::mt19937& random) {
     for (const Field<T>& field : fields<T>())
         if (below(random, 3) != 0) field.set(object, random_value(field.parameter, random));
 }
 
-void forget_materials(Node& node) {
+/// Makes a node of another scene one that can be inserted: no materials, instances of `definition` alone.
+void adapt(Node& node, Id definition) {
     node.material = 0;
-    for (Node& child : node.children) forget_materials(child);
+    if (node.kind == NodeKind::instance) node.definition = definition;
+    for (Node& child : node.children) adapt(child, definition);
 }
 
 }  // namespace
@@ -73,6 +83,27 @@ std::vector<Id> all_ids(const Node& node) {
     return ids;
 }
 
+Scene expanded(Scene scene) {
+    const auto is_instance = [&](Id id) { return find_node(scene, id)->kind == NodeKind::instance; };
+    for (std::vector<Id> ids = all_ids(scene.root);;) {
+        const auto found = std::find_if(ids.begin(), ids.end(), is_instance);
+        if (found == ids.end()) break;
+        apply(scene, MakeIndependent{*found});
+        ids = all_ids(scene.root);
+    }
+    scene.definitions.clear();
+    return scene;
+}
+
+std::vector<Id> all_ids(const Scene& scene) {
+    std::vector<Id> ids = all_ids(scene.root);
+    for (const Node& definition : scene.definitions) {
+        const std::vector<Id> below = all_ids(definition);
+        ids.insert(ids.end(), below.begin(), below.end());
+    }
+    return ids;
+}
+
 glm::vec3 random_value(const Parameter& parameter, std::mt19937& random) {
     glm::vec3 value = parameter.initial;
     for (int i = 0; i < parameter.components(); ++i) {
@@ -109,22 +140,51 @@ Scene random_scene(unsigned seed, int nodes) {
             if (applies(light, field.parameter.key)) field.set(light, random_value(field.parameter, random));
     }
 
-    // Each node joins one that is there already and takes children.
-    std::vector<Id> parents{scene.root.id};
-    for (int i = 1; i < nodes; ++i) {
+    // Each node joins one that is there already and takes children. Instances show the definitions so far.
+    const auto random_node = [&](int number) {
         Node node = make_node(node_kinds()[static_cast<size_t>(below(random, node_kinds().size()))].kind);
+        if (node.kind == NodeKind::instance && scene.definitions.empty()) node = make_node(NodeKind::sphere);
+        if (node.kind == NodeKind::instance)
+            node.definition = scene.definitions[static_cast<size_t>(below(random, scene.definitions.size()))].id;
         node.id = scene.new_id();
-        if (below(random, 2)) node.name = fmt::format("näme {}", i);
+        if (below(random, 2)) node.name = fmt::format("näme {}", number);
         if (below(random, 3) == 0)
             node.material = scene.materials[static_cast<size_t>(below(random, scene.materials.size()))].id;
         for (size_t k = 0; k < node.values.size(); ++k)
             node.values[k] = random_value(info(node.kind).parameters[k], random);
         randomise(node.transform, random);
-        const Id id = node.id;
-        const bool takes_children = info(node.kind).takes_children();
-        find_node(scene, parents[static_cast<size_t>(below(random, parents.size()))])
-            ->children.push_back(std::move(node));
-        if (takes_children) parents.push_back(id);
+        return node;
+    };
+    const auto grow = [&](Node& top, int first, int last) {
+        std::vector<Id> parents{top.id};
+        for (int i = first; i < last; ++i) {
+            Node node = random_node(i);
+            const Id id = node.id;
+            const bool takes_children = info(node.kind).takes_children();
+            find_below(top, parents[static_cast<size_t>(below(random, parents.size()))])
+                .children.push_back(std::move(node));
+            if (takes_children) parents.push_back(id);
+        }
+    };
+    const int definitions = below(random, 4);
+    for (int i = 0; i < definitions; ++i) {
+        Node definition = random_node(-1);
+        definition.name = fmt::format("part {}", i);
+        if (info(definition.kind).takes_children()) grow(definition, 1000 + 10 * i, 1003 + 10 * i);
+        scene.definitions.push_back(std::move(definition));
+    }
+    grow(scene.root, 1, nodes);
+    // Instances are rare among the kinds: the last definition is sure to show.
+    if (definitions > 0 && nodes > 1) {
+        Node& last = scene.root.children.back();
+        if (last.children.empty()) {
+            Node instance = make_node(NodeKind::instance);
+            instance.id = last.id;
+            instance.transform = last.transform;
+            instance.material = last.material;
+            instance.definition = scene.definitions.back().id;
+            last = instance;
+        }
     }
     return scene;
 }
@@ -132,7 +192,7 @@ Scene random_scene(unsigned seed, int nodes) {
 Edit random_edit(const Scene& scene, std::mt19937& random) {
     const auto pick = [&](std::size_t count) { return below(random, count); };
     const auto any_node = [&] {
-        const std::vector<Id> ids = all_ids(scene.root);
+        const std::vector<Id> ids = all_ids(scene);
         return pick(20) == 0 ? Id{99999} : ids[pick(ids.size())];
     };
     const auto any_kind = [&] { return node_kinds()[pick(node_kinds().size())].kind; };
@@ -148,6 +208,15 @@ Edit random_edit(const Scene& scene, std::mt19937& random) {
                                      {ObjectType::camera},
                                      {ObjectType::settings}};
         return objects[pick(6)];
+    };
+    const auto any_definition = [&] {
+        return scene.definitions.empty() ? any_node() : scene.definitions[pick(scene.definitions.size())].id;
+    };
+    const auto any_instance = [&] {
+        std::vector<Id> instances;
+        for (const Id id : all_ids(scene))
+            if (find_node(scene, id)->kind == NodeKind::instance) instances.push_back(id);
+        return instances.empty() ? any_node() : instances[pick(instances.size())];
     };
     const std::string name = std::string(1, static_cast<char>('a' + pick(6)));
     switch (pick(std::variant_size_v<Edit>)) {
@@ -167,10 +236,10 @@ Edit random_edit(const Scene& scene, std::mt19937& random) {
         case 4:
             return SetMaterial{any_node(), any_material()};
         case 5: {
-            Node node = make_node(any_kind());
+            Node node = make_node(pick(6) ? any_kind() : NodeKind::instance);
             if (info(node.kind).takes_children())
                 node.children = random_scene(static_cast<unsigned>(random()), 1 + pick(4)).root.children;
-            forget_materials(node);  // of that other scene
+            adapt(node, any_definition());
             node.name = pick(2) ? name : "";
             return InsertNode{any_node(), pick(6) - 1, node};
         }
@@ -184,6 +253,12 @@ Edit random_edit(const Scene& scene, std::mt19937& random) {
             return RemoveMaterial{any_material()};
         case 10:
             return AddLight{{0, name}};
+        case 11:
+            return SetDefinition{pick(3) ? any_instance() : any_node(), any_definition()};
+        case 12:
+            return MakeDefinition{any_node()};
+        case 13:
+            return MakeIndependent{pick(3) ? any_instance() : any_node()};
         default:
             return RemoveLight{any_light()};
     }

@@ -31,13 +31,19 @@ private:
     std::filesystem::path path_;
 };
 
-/// A valid scene of `nodes` nodes (the root included), made from the tables: every kind, parameter, material and light
-/// kind occurs sooner or later. Equal seeds give equal scenes, on every machine. Values lie near their defaults, so
-/// that the shapes are of about a metre's size and stand a few metres around the origin.
+/// A valid scene of `nodes` nodes (the root included; up to twelve more in definitions), made from the tables: every
+/// kind, parameter, material and light kind occurs sooner or later. Equal seeds give equal scenes, on every machine.
+/// Values lie near their defaults, so that the shapes are of about a metre's size and stand a few metres around the
+/// origin.
 Scene random_scene(unsigned seed, int nodes = 20);
+
+/// The same scene without instances: each is a copy of what it shows.
+Scene expanded(Scene scene);
 
 /// The ids of a node and everything below it.
 std::vector<Id> all_ids(const Node& node);
+/// Those of the root and the definitions and everything below them.
+std::vector<Id> all_ids(const Scene& scene);
 
 /// A value that `parameter` takes, near its default.
 glm::vec3 random_value(const Parameter& parameter, std::mt19937& random);

@@ -54,6 +54,25 @@ void kind_row(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
     ImGui::EndDisabled();
 }
 
+/// Of an instance: what it shows, and the way there.
+void definition_row(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
+    row_label(ui, "Shows", false);
+    const Node* definition = find_definition(scene, node.definition);
+    const bool open = ImGui::BeginCombo("##definition", definition ? definition->name.c_str() : "");
+    ui.report.item("inspector", "definition");
+    if (open) {
+        for (const Node& other : scene.definitions) {
+            if (ImGui::Selectable(other.name.c_str(), other.id == node.definition) && other.id != node.definition)
+                edits.push_back(SetDefinition{node.id, other.id});
+            ui.report.item("definition", other.name);
+        }
+        ImGui::EndCombo();
+    }
+    row_label(ui, "", false);
+    if (ImGui::Button("Go to definition", {-FLT_MIN, 0.0f})) go_to(ui, node.definition);
+    ui.report.item("inspector", "go_to_definition");
+}
+
 void material_row(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
     row_label(ui, "Material", node.material != 0);
     const Material* material = find_material(scene, node.material);
@@ -67,7 +86,9 @@ void material_row(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
         ImGui::SameLine(0.0f, ui.theme.px(4.0f));
         ImGui::SetNextItemWidth(-FLT_MIN);
     }
-    const char* inherit = node.id == scene.root.id ? "first in the list" : "as its group";
+    const char* inherit = node.id == scene.root.id          ? "first in the list"
+                          : find_definition(scene, node.id) ? "as each instance"
+                                                            : "as its group";
     const bool open = ImGui::BeginCombo("##material", material ? material->name.c_str() : inherit);
     ui.report.item("inspector", "material");
     if (!open) {
@@ -96,6 +117,12 @@ int uses(const Node& node, Id material) {
     return count;
 }
 
+int uses(const Scene& scene, Id material) {
+    int count = uses(scene.root, material);
+    for (const Node& definition : scene.definitions) count += uses(definition, material);
+    return count;
+}
+
 void delete_button(Ui& ui, const Scene& scene, const char* label, bool enabled, Edits& edits) {
     ImGui::Dummy({0.0f, ui.theme.px(4.0f)});
     ImGui::BeginDisabled(!enabled);
@@ -105,8 +132,14 @@ void delete_button(Ui& ui, const Scene& scene, const char* label, bool enabled, 
 }
 
 void inspect_node(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
-    name_row(ui, ui.inspected, node.name, info(node.kind).label, edits);
+    name_row(ui, ui.inspected, node.name, display_name(scene, node).c_str(), edits);
     kind_row(ui, scene, node, edits);
+    if (node.kind == NodeKind::instance) definition_row(ui, scene, node, edits);
+    if (find_definition(scene, node.id)) {
+        const int count = count_uses(scene, node.id);
+        row_label(ui, "Shown by", false);
+        ImGui::TextDisabled("%d %s", count, count == 1 ? "instance" : "instances");
+    }
     material_row(ui, scene, node, edits);
     const std::size_t own = info(node.kind).parameters.size();
     if (own > 0) section(ui, "Shape");
@@ -119,12 +152,15 @@ void inspect_node(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
         ImGui::TextDisabled("Nothing inside yet: it shows once it holds a shape. Press + Add, or drag nodes onto it.");
         ImGui::PopTextWrapPos();
     }
-    if (node.id != scene.root.id) delete_button(ui, scene, "Delete node", true, edits);
+    if (find_definition(scene, node.id))
+        delete_button(ui, scene, "Delete definition", count_uses(scene, node.id) == 0, edits);
+    else if (node.id != scene.root.id)
+        delete_button(ui, scene, "Delete node", true, edits);
 }
 
 void inspect_material(Ui& ui, const Scene& scene, const Material& material, Edits& edits) {
     name_row(ui, ui.inspected, material.name, "a name is needed", edits);
-    const int count = uses(scene.root, material.id);
+    const int count = uses(scene, material.id);
     row_label(ui, "Used by", false);
     if (&material == scene.materials.data())
         ImGui::TextDisabled("%d nodes, and all without one", count);

@@ -14,7 +14,7 @@ struct Group {
 constexpr Group groups[] = {
     {"Shapes", 0, [](Role role) { return role == Role::primitive; }},
     {"Combine", 1, [](Role role) { return role == Role::combine; }},
-    {"Modify", 1, [](Role role) { return role != Role::primitive && role != Role::combine; }},
+    {"Modify", 1, [](Role role) { return role != Role::primitive && role != Role::combine && role != Role::instance; }},
 };
 
 }  // namespace
@@ -54,6 +54,30 @@ std::optional<NodeKind> kind_menu(Ui& ui, const char* panel, const std::function
         ImGui::Dummy({0.0f, ui.theme.px(2.0f)});
     }
     if (column >= 0) ImGui::EndGroup();
+    return chosen;
+}
+
+std::optional<Node> node_menu(Ui& ui, const char* panel, const Scene& scene) {
+    std::optional<Node> chosen;
+    if (const auto kind = kind_menu(ui, panel, [](const KindInfo&) { return true; })) chosen = make_node(*kind);
+    if (scene.definitions.empty()) return chosen;
+    ImGui::SameLine(0.0f, ui.theme.px(14.0f));
+    ImGui::BeginGroup();
+    ImGui::PushFont(ui.theme.small_font);
+    ImGui::TextDisabled("Instances");
+    ImGui::PopFont();
+    for (const Node& definition : scene.definitions) {
+        ImGui::PushID(static_cast<int>(definition.id));
+        const ImVec2 start = ImGui::GetCursorScreenPos();
+        const std::string label = "Instance of " + definition.name;
+        const bool clicked = ImGui::Selectable("##definition", false, 0, {ui.theme.px(150.0f), 0.0f});
+        ui.report.item(panel, label);
+        draw_icon(ui, Role::instance, {start.x + ui.theme.px(9.0f), start.y + ImGui::GetTextLineHeight() * 0.5f});
+        ImGui::GetWindowDrawList()->AddText({start.x + ui.theme.px(24.0f), start.y}, ui.theme.text, label.c_str());
+        if (clicked) chosen = make_instance(definition);
+        ImGui::PopID();
+    }
+    ImGui::EndGroup();
     return chosen;
 }
 

@@ -111,6 +111,8 @@ ImU32 Theme::role(Role role) const {
             return IM_COL32(130, 196, 128, 255);
         case Role::distance:
             return IM_COL32(190, 145, 220, 255);
+        case Role::instance:
+            return IM_COL32(110, 200, 200, 255);
     }
     return text;
 }

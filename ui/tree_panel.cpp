@@ -42,7 +42,7 @@ public:
         const bool open =
             ImGui::TreeNodeEx(reinterpret_cast<void*>(static_cast<std::uintptr_t>(node.id)), flags, "%s", "");
         const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
-        const std::string name = display_name(node);
+        const std::string name = display_name(scene_, node);
         ui_.report.item("tree", name);
         if (ui_.reveal == node.id) {
             ImGui::SetScrollHereY();
@@ -51,8 +51,13 @@ public:
         // A press selects, except on the arrow; a right-click selects what its menu is about.
         if ((ImGui::IsItemClicked() && !ImGui::IsItemToggledOpen()) || ImGui::IsItemClicked(ImGuiMouseButton_Right))
             ui_.selection = {ObjectType::node, node.id};
-        if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && !ImGui::IsItemToggledOpen())
-            ui_.focus_name = true;
+        if (ImGui::IsItemHovered() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) &&
+            !ImGui::IsItemToggledOpen()) {
+            if (node.kind == NodeKind::instance)
+                go_to(ui_, node.definition);
+            else
+                ui_.focus_name = true;
+        }
         drag_and_drop(node, parent, low, high);
         context_menu(node, parent);
         decorate(node, name, left, low, high);
@@ -83,9 +88,9 @@ private:
     }
 
     void drag_and_drop(const Node& node, const Node* parent, ImVec2 low, ImVec2 high) {
-        if (parent && ImGui::BeginDragDropSource()) {
+        if (node.id != scene_.root.id && ImGui::BeginDragDropSource()) {
             ImGui::SetDragDropPayload(payload_type, &node.id, sizeof node.id);
-            ImGui::TextUnformatted(display_name(node).c_str());
+            ImGui::TextUnformatted(((parent ? "" : "instance of ") + display_name(scene_, node)).c_str());
             ImGui::EndDragDropSource();
         }
         if (!ImGui::BeginDragDropTarget()) return;
@@ -106,7 +111,12 @@ private:
                 else
                     draw.AddLine({low.x, y}, {high.x, y}, ui_.theme.accent, thickness);
                 const int index = inside ? -1 : index_in(*target, node.id) + (where < 0.5f ? 0 : 1);
-                if (payload->IsDelivery()) edits.push_back(MoveNode{dragged, target->id, index});
+                if (payload->IsDelivery()) {
+                    if (find_definition(scene_, dragged))
+                        edits.push_back(InsertNode{target->id, index, make_instance(*source)});
+                    else
+                        edits.push_back(MoveNode{dragged, target->id, index});
+                }
             }
         }
         ImGui::EndDragDropTarget();
@@ -125,8 +135,8 @@ private:
 
     void context_entries(const Node& node, const Node* parent) {
         if (info(node.kind).takes_children() && ImGui::BeginMenu("Add inside")) {
-            if (const auto kind = kind_menu(ui_, "add_inside", [](const KindInfo&) { return true; })) {
-                edits.push_back(InsertNode{node.id, -1, make_node(*kind)});
+            if (auto added = node_menu(ui_, "add_inside", scene_)) {
+                edits.push_back(InsertNode{node.id, -1, std::move(*added)});
                 ImGui::CloseCurrentPopup();
             }
             ImGui::EndMenu();
@@ -150,7 +160,20 @@ private:
             if (ImGui::MenuItem("Move down", "Alt+Down", false, index + 1 < count))
                 edits.push_back(MoveNode{node.id, parent->id, index + 2});
             ImGui::Separator();
+            if (node.kind == NodeKind::instance) {
+                if (ImGui::MenuItem("Go to definition")) go_to(ui_, node.definition);
+                if (ImGui::MenuItem("Make independent", "Ctrl+Shift+I")) edits.push_back(MakeIndependent{node.id});
+            } else if (ImGui::MenuItem("Make definition", "Ctrl+I")) {
+                edits.push_back(MakeDefinition{node.id});
+            }
+            ui_.report.item("context", "definition");
+            ImGui::Separator();
             if (ImGui::MenuItem("Delete", "Del")) edits.push_back(RemoveNode{node.id});
+        } else if (node.id != scene_.root.id) {
+            if (ImGui::MenuItem("Add instance")) edits.push_back(InsertNode{scene_.root.id, -1, make_instance(node)});
+            if (ImGui::MenuItem("Rename")) ui_.focus_name = true;
+            if (ImGui::MenuItem("Delete", "Del", false, count_uses(scene_, node.id) == 0))
+                edits.push_back(RemoveNode{node.id});
         }
     }
 
@@ -159,6 +182,11 @@ private:
 };
 
 }  // namespace
+
+void go_to(Ui& ui, Id node) {
+    ui.selection = {ObjectType::node, node};
+    ui.reveal = node;
+}
 
 Edit insert_at_selection(const Ui& ui, const Scene& scene, Node node) {
     if (const Node* selected = selected_node(ui, scene)) {
@@ -196,6 +224,18 @@ Edits duplicate_selection(const Ui& ui, const Scene& scene) {
     return {};
 }
 
+Edits define_selection(const Ui& ui, const Scene& scene) {
+    const Node* node = selected_node(ui, scene);
+    if (!node || node->kind == NodeKind::instance || !find_parent(scene, node->id)) return {};
+    return {MakeDefinition{node->id}};
+}
+
+Edits free_selection(const Ui& ui, const Scene& scene) {
+    const Node* node = selected_node(ui, scene);
+    if (!node || node->kind != NodeKind::instance || !find_parent(scene, node->id)) return {};
+    return {MakeIndependent{node->id}};
+}
+
 Edits shift_selection(const Ui& ui, const Scene& scene, int by) {
     const Node* node = selected_node(ui, scene);
     const Node* parent = node ? find_parent(scene, node->id) : nullptr;
@@ -220,8 +260,8 @@ Edits tree_panel(Ui& ui, const Scene& scene) {
             "Into the selected operation, or after the selected shape. Shortcut: A");
     ImGui::SetNextWindowPos({low.x + ui.theme.px(8.0f), high.y + ui.theme.px(2.0f)}, ImGuiCond_Appearing);
     if (ImGui::BeginPopup("add")) {
-        if (const auto kind = kind_menu(ui, "add", [](const KindInfo&) { return true; })) {
-            tree.edits.push_back(insert_at_selection(ui, scene, make_node(*kind)));
+        if (auto node = node_menu(ui, "add", scene)) {
+            tree.edits.push_back(insert_at_selection(ui, scene, std::move(*node)));
             ImGui::CloseCurrentPopup();
         }
         ImGui::EndPopup();
@@ -240,6 +280,11 @@ Edits tree_panel(Ui& ui, const Scene& scene) {
         ImGui::TextDisabled("The scene is empty. Press + Add above to put in a first shape.");
         ImGui::PopTextWrapPos();
         ImGui::Unindent(ui.theme.px(8.0f));
+    }
+    if (!scene.definitions.empty()) {
+        ImGui::Dummy({0.0f, ui.theme.px(6.0f)});
+        section(ui, "Definitions");
+        for (const Node& definition : scene.definitions) tree.row(definition, nullptr);
     }
     ImGui::EndChild();
     ImGui::PopStyleVar(3);

@@ -97,6 +97,10 @@ void draw_icon(const Ui& ui, Role role, ImVec2 centre) {
         case Role::distance:
             draw.AddCircle(centre, r * 0.8f, color, 0, ui.theme.px(2.0f));
             break;
+        case Role::instance:
+            draw.AddCircle({centre.x - r * 0.3f, centre.y - r * 0.3f}, r * 0.7f, color, 0, ui.theme.px(1.4f));
+            draw.AddCircleFilled({centre.x + r * 0.3f, centre.y + r * 0.3f}, r * 0.7f, color);
+            break;
     }
 }
 
