@@ -18,8 +18,9 @@ using Clock = std::chrono::steady_clock;
 
 /// A hand that has not moved anything for so long rests: time to make programs.
 constexpr auto rest = std::chrono::milliseconds(250);
-/// What a picture may take while a hand moves something, and the first one after an edit.
-constexpr double interactive_milliseconds = 80.0;
+/// What a picture may take while a hand moves something, and the first one after an edit, which often had to wait for a
+/// program.
+constexpr double interactive_milliseconds = 80.0, first_milliseconds = 40.0;
 /// What one step may take, so that an edit is seen soon.
 constexpr double step_milliseconds = 25.0;
 /// A picture of an unfinished frame is shown after so long.
@@ -42,6 +43,9 @@ struct RenderThread::State {
     std::mutex mutex;  ///< guards everything down to `held`
     std::condition_variable wake;
     std::optional<RenderRequest> next;
+    std::shared_ptr<const Scene> asked_for;
+    Clock::time_point edit_time;  ///< when the scene of the latest request was first asked for
+    double edit_milliseconds = 0.0;
     bool stop = false;
     std::array<Slot, 3> slots;  ///< one held by the caller, one ready, one to draw into
     int ready = -1;
@@ -56,6 +60,7 @@ struct RenderThread::State {
     RenderRequest current;
     FrameOptions options;
     Clock::time_point request_time, shown_time;
+    std::optional<Clock::time_point> unseen_edit;  ///< its scene has not been shown yet
     std::uint64_t serial = 0;
     double milliseconds_per_pixel_sample = 0.0;  ///< measured on the last frame; 0: not yet
     bool unshown = false;                        ///< another view, other settings or a finished frame
@@ -96,6 +101,8 @@ RenderThread::~RenderThread() {
 void RenderThread::submit(RenderRequest request) {
     {
         const std::lock_guard lock(state_->mutex);
+        if (request.scene != state_->asked_for) state_->edit_time = Clock::now();
+        state_->asked_for = request.scene;
         state_->next = std::move(request);
     }
     state_->wake.notify_one();
@@ -112,6 +119,7 @@ RenderedPicture RenderThread::acquire() {
     RenderedPicture picture;
     if (state_->held >= 0) picture = state_->slots[static_cast<std::size_t>(state_->held)].picture;
     picture.statistics = state_->statistics;
+    picture.statistics.edit_milliseconds = state_->edit_milliseconds;
     picture.error = state_->error;
     return picture;
 }
@@ -144,6 +152,7 @@ bool RenderThread::State::wait_for_work() {
     // something.
     const bool busy = has_work() && quick() && unshown && !gave_up;
     if (!next || busy) return true;
+    if (next->scene != current.scene) unseen_edit = edit_time;
     current = std::move(*next);
     next.reset();
     lock.unlock();
@@ -154,8 +163,8 @@ bool RenderThread::State::wait_for_work() {
 /// So small that a picture with one sample keeps to its time.
 glm::ivec2 RenderThread::State::quick_size() const {
     if (milliseconds_per_pixel_sample <= 0.0) return glm::max(current.size / 8, glm::ivec2(1));
-    const double pixels =
-        interactive_milliseconds / (2.0 * milliseconds_per_pixel_sample);  // 2: one sample, and the camera's
+    const double pixels = (current.interacting ? interactive_milliseconds : first_milliseconds) /
+                          (2.0 * milliseconds_per_pixel_sample);  // 2: one sample, and the camera's
     const double full = static_cast<double>(current.size.x) * current.size.y;
     int divisor = 1;
     while (divisor < 8 && full / (divisor * divisor) > pixels) divisor *= 2;
@@ -278,6 +287,9 @@ void RenderThread::State::show() {
     const std::lock_guard lock(mutex);
     ready = free;
     statistics.samples = shown_samples;
+    if (!unseen_edit) return;
+    edit_milliseconds = std::chrono::duration<double, std::milli>(shown_time - *unseen_edit).count();
+    unseen_edit.reset();
 }
 
 }  // namespace farfield

@@ -21,6 +21,7 @@ struct Statistics {
     int structural_compiles = 0;      ///< programs made for a structure not met before; a parameter edit never adds one
     int specialisations = 0;          ///< further programs for known structures, made once the hand rested
     double compile_milliseconds = 0.0;  ///< of the last program
+    double edit_milliseconds = 0.0;     ///< from the latest change of the scene to its first picture
     bool specialised = false;           ///< the picture comes from the program with literals
     std::uint64_t rays = 0;             ///< traced in the last frame, where they are counted (FrameOptions)
     std::uint64_t evaluations = 0;      ///< of the distance by these rays' marches
