@@ -1,5 +1,7 @@
 #include "app/camera_control.h"
 
+#include "sdf/pick.h"
+
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
@@ -37,14 +39,10 @@ Camera orbited(const Camera& camera, glm::vec2 drag, float height) {
 }
 
 Camera panned(const Camera& camera, glm::vec2 drag, float height) {
-    const vec3 view = camera.target - camera.position;
-    const float distance = std::max(glm::length(view), nearest_distance);
-    const vec3 forward = view / distance;
-    const vec3 side = glm::cross(forward, vec3(0.0f, 1.0f, 0.0f));
-    const vec3 right = glm::length(side) > 1e-6f ? glm::normalize(side) : vec3(1.0f, 0.0f, 0.0f);
-    const vec3 up = glm::cross(right, forward);
-    const float scale = 2.0f * distance * std::tan(glm::radians(camera.field_of_view) * 0.5f) / std::max(height, 1.0f);
-    const vec3 shift = (-drag.x * right + drag.y * up) * scale;
+    const CameraBasis basis(camera);
+    const float distance = std::max(glm::length(camera.target - camera.position), nearest_distance);
+    const float scale = 2.0f * distance * basis.half_height / std::max(height, 1.0f);
+    const vec3 shift = (-drag.x * basis.right + drag.y * basis.up) * scale;
     Camera moved = camera;
     moved.position += shift;
     moved.target += shift;

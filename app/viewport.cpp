@@ -1,6 +1,7 @@
 #include "app/viewport.h"
 
 #include "app/camera_control.h"
+#include "sdf/pick.h"
 #include "ui/statistics_panel.h"
 
 #include <cmath>
@@ -35,6 +36,20 @@ Edits move_camera(const Scene& scene, float height, bool& wheel) {
     return camera_edits(scene.camera, camera);
 }
 
+/// The shape under the mouse, the scene where there is none; the group around what is selected already, so that further
+/// clicks go up the tree.
+Id node_under_mouse(const Ui& ui, const Scene& scene, ImVec2 low, ImVec2 size) {
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    const glm::vec2 at((mouse.x - low.x) / size.x, (mouse.y - low.y) / size.y);
+    const glm::vec3 direction = CameraBasis(scene.camera).direction(at, size.x / size.y);
+    const std::optional<Pick> hit = pick(FieldEvaluator(scene), scene.camera.position, direction);
+    if (!hit) return scene.root.id;
+    if (ui.selection.type == ObjectType::node)
+        for (const Node* node = find_node(scene, hit->node); node; node = find_parent(scene, node->id))
+            if (node->id == ui.selection.id && node->id != scene.root.id) return find_parent(scene, node->id)->id;
+    return hit->node;
+}
+
 }  // namespace
 
 ViewportResult viewport(Ui& ui, const Scene& scene, const RenderedPicture& picture, float covered) {
@@ -51,6 +66,9 @@ ViewportResult viewport(Ui& ui, const Scene& scene, const RenderedPicture& pictu
     ImGui::InvisibleButton("picture", size, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
     ui.report.item("viewport", "");
     result.edits = move_camera(scene, size.y, result.wheel);
+    const float moved = ImGui::GetIO().MouseDragMaxDistanceSqr[ImGuiMouseButton_Left];
+    if (ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && moved < 9.0f)
+        ui.selection = {ObjectType::node, ui.reveal = node_under_mouse(ui, scene, low, size)};
     if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_Arrow);
 
     if (is_empty(scene, scene.root)) {

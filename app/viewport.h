@@ -1,4 +1,4 @@
-// The picture in the middle: shows what the renderer made and moves the camera by mouse.
+// The picture in the middle: shows what the renderer made, moves the camera by mouse and selects what is clicked.
 #pragma once
 
 #include "renderer/render_thread.h"

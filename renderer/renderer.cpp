@@ -1,5 +1,7 @@
 #include "renderer/renderer.h"
 
+#include "sdf/pick.h"
+
 #include "renderer/records.h"
 
 #include <glm/geometric.hpp>
@@ -29,21 +31,17 @@ glm::vec2 pixel_offset(int n) {
 /// Camera, sky and size as the kernels take them.
 FrameRecord frame_record(const Scene& scene, const FrameOptions& options, int frame) {
     const Camera& camera = scene.camera;
-    glm::vec3 forward = camera.target - camera.position;
-    forward = glm::length(forward) > 0.0f ? glm::normalize(forward) : glm::vec3(0.0f, 0.0f, -1.0f);
-    glm::vec3 right = glm::cross(forward, glm::vec3(0.0f, 1.0f, 0.0f));
-    right = glm::length(right) > 1e-6f ? glm::normalize(right) : glm::vec3(1.0f, 0.0f, 0.0f);
-    const float half_height = std::tan(0.5f * glm::radians(camera.field_of_view));
+    const CameraBasis basis(camera);
     const float aspect = static_cast<float>(options.size.x) / static_cast<float>(options.size.y);
     const glm::vec2 offset = pixel_offset(frame);
     FrameRecord record{};
     record.camera_position = camera.position;
-    record.pixel_angle = 2.0f * half_height / static_cast<float>(options.size.y);
-    record.camera_right = right * (half_height * aspect);
+    record.pixel_angle = 2.0f * basis.half_height / static_cast<float>(options.size.y);
+    record.camera_right = basis.right * (basis.half_height * aspect);
     record.jitter_x = offset.x;
-    record.camera_up = glm::cross(right, forward) * half_height;
+    record.camera_up = basis.up * basis.half_height;
     record.jitter_y = offset.y;
-    record.camera_forward = forward;
+    record.camera_forward = basis.forward;
     record.seed = options.seed;
     record.sky_horizon = scene.sky.horizon;
     record.light_count = static_cast<int>(scene.lights.size());

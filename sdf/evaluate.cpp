@@ -12,6 +12,7 @@ FieldEvaluator::Sample FieldEvaluator::fold(const FieldNode& node, glm::vec3 p, 
         if (node.kind->role == Role::combine) {
             const float share = node.kind->weight(result.distance, next.distance, node.values);
             result.material = blend_materials(result.material, next.material, share);
+            if (share > 0.5f) result.owner = next.owner;
             result.distance = node.kind->combine(result.distance, next.distance, node.values);
         } else if (next.distance < result.distance) {
             result = next;
@@ -23,7 +24,7 @@ FieldEvaluator::Sample FieldEvaluator::fold(const FieldNode& node, glm::vec3 p, 
 FieldEvaluator::Sample FieldEvaluator::evaluate(const FieldNode& node, glm::vec3 p, std::uint32_t inherited) const {
     const KindInfo& kind = *node.kind;
     const glm::vec3 q = node.to_own * (p - node.translate) / node.scale;
-    Sample s{empty_distance, node.material == inherited_material ? inherited : node.material};
+    Sample s{empty_distance, node.material == inherited_material ? inherited : node.material, node.id};
     switch (kind.role) {
         case Role::primitive:
             s.distance = kind.primitive(q, node.values);
@@ -50,6 +51,7 @@ FieldEvaluator::Sample FieldEvaluator::evaluate(const FieldNode& node, glm::vec3
             break;
         case Role::instance:
             s = evaluate(tree_.definitions[node.definition], q, s.material);
+            s.owner = node.id;
             break;
     }
     s.distance *= node.scale;
@@ -63,6 +65,8 @@ float FieldEvaluator::distance(glm::vec3 p) const {
 std::uint32_t FieldEvaluator::material(glm::vec3 p) const {
     return !tree_.root ? 0 : evaluate(*tree_.root, p, 0).material;
 }
+
+Id FieldEvaluator::owner(glm::vec3 p) const { return !tree_.root ? 0 : evaluate(*tree_.root, p, 0).owner; }
 
 glm::vec3 FieldEvaluator::normal(glm::vec3 p, float h) const {
     glm::vec3 gradient;

@@ -20,11 +20,14 @@ public:
     glm::vec3 normal(glm::vec3 p, float h = 1e-3f) const;
     /// Material code (see blend_materials) of the surface nearest to p.
     std::uint32_t material(glm::vec3 p) const;
+    /// The primitive or instance whose surface is nearest to p, that of a blend's larger part; 0 in an empty scene.
+    Id owner(glm::vec3 p) const;
 
 private:
     struct Sample {
         float distance;
         std::uint32_t material;
+        Id owner;
     };
     /// `inherited`: the material of nodes in definitions that have none of their own.
     Sample evaluate(const FieldNode& node, glm::vec3 p, std::uint32_t inherited) const;

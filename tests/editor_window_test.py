@@ -227,6 +227,16 @@ def read_code(editor, program, scene):
     editor.wait("no code", lambda r: "code" not in r)
 
 
+def click_shapes(editor):
+    """A click selects what is seen there, another one the group around it."""
+    editor.click("tree/short block")
+    editor.wait("the short block", lambda r: r["selection"] == "short block")
+    editor.click("viewport")
+    editor.wait("what is in the middle", lambda r: r["selection"] in ("back wall", "tall block"))
+    editor.click("viewport")
+    editor.wait("the scene around it", lambda r: r["selection"] == "scene")
+
+
 def type_without_traces(editor):
     """Opening a number's text changes nothing, Escape leaves no step, and what is typed is one step."""
     editor.click("tree/short block")
@@ -383,6 +393,7 @@ def main():
             steps = [
                 lambda: start(editor),
                 lambda: read_code(editor, program, scene),
+                lambda: click_shapes(editor),
                 lambda: type_without_traces(editor),
                 lambda: add_sphere_under_union(editor),
                 lambda: type_values(editor),
@@ -395,7 +406,7 @@ def main():
                 lambda: define_and_free(editor),
                 lambda: show_error(editor, Path(folder) / "bad.json"),
             ]
-            names = ["start", "read the code", "type without traces", "add a sphere under a union", "type values", "drag a radius", "sample count",
+            names = ["start", "read the code", "click shapes", "type without traces", "add a sphere under a union", "type values", "drag a radius", "sample count",
                      "blur levels", "AO radius", "save", "reload", "define and free", "an error in a file"]
             for name, step in zip(names, steps):
                 print(f"{name} ...", flush=True)
