@@ -46,6 +46,7 @@ constexpr Command commands[] = {
 constexpr const char* menus[] = {"File", "Edit", "View", "Help"};
 
 constexpr std::pair<const char*, const char*> mouse[] = {
+    {"Click in the picture", "Select the shape, then the groups around it"},
     {"Left drag on the picture", "Orbit"},
     {"Middle drag, Shift + left drag", "Pan"},
     {"Wheel", "Zoom"},

@@ -73,8 +73,9 @@ void status_line(const Ui& ui, ImVec2 low, ImVec2 size, const Document& document
                                     picture.statistics.samples == 1 ? "sample" : "samples");
     const float width = font->CalcTextSizeA(font->FontSize, 1e6f, 0.0f, right.c_str()).x;
     const std::vector<std::string> steps = document.history().steps();
-    const std::string left = steps.empty() ? "Left drag: orbit    Shift + drag: pan    Wheel: zoom    F1: all keys"
-                                           : "Last step: " + steps.back();
+    const std::string left = steps.empty()
+                                 ? "Click: select    Drag: orbit    Shift + drag: pan    Wheel: zoom    F1: all keys"
+                                 : "Last step: " + steps.back();
     draw.PushClipRect(low, {low.x + size.x - width - 2.0f * pad, low.y + size.y}, true);
     draw.AddText(font, font->FontSize, {low.x + pad, y}, ui.theme.dim, left.c_str());
     draw.PopClipRect();
