@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <map>
 #include <optional>
 #include <set>
@@ -82,7 +83,7 @@ public:
         add(n.translate);
         for (int column = 0; column < 3; ++column) add(n.to_own[column]);
         values.push_back(n.scale);
-        for (std::size_t i = 0; i < n.kind->parameters.size(); ++i) add(n.kind->parameters[i], n.values[i]);
+        for (std::size_t i = 0; i < n.parameters.size(); ++i) add(n.parameters[i], n.values[i]);
         values.push_back(static_cast<float>(n.material));
         return place->second;
     }
@@ -120,13 +121,65 @@ private:
     std::map<Id, std::size_t> first_, first_derived_;
 };
 
+/// What the global names of each custom node's code end in: the node's name in camel case, or a number. All other names
+/// in a program are small, with underscores, or all capitals; so no two are the same.
+class CustomSuffixes {
+public:
+    CustomSuffixes(const FieldTree& tree, bool by_name) : by_name_(by_name) {
+        if (tree.root) gather(*tree.root);
+    }
+    const std::string& of(const FieldNode& n) const { return suffixes_.at(n.id); }
+    bool empty() const { return suffixes_.empty(); }
+
+private:
+    void gather(const FieldNode& n) {
+        for (const FieldNode& child : n.children) gather(child);
+        if (!n.code || suffixes_.contains(n.id)) return;
+        std::string suffix = by_name_ ? camel_case(n.name) : "";
+        if (suffix.size() < 2) suffix += "Custom";
+        const std::string first = suffix + (suffix == "Custom" ? "1" : "");
+        std::string free = first;
+        for (int i = 2; !taken_.insert(free).second; ++i) free = fmt::format("{}{}", suffix, i);
+        suffixes_.emplace(n.id, free);
+    }
+    /// The letters and digits of ASCII alone; begins with a letter.
+    static std::string camel_case(const std::string& name) {
+        std::string text;
+        bool begins = true;
+        for (const char c : name) {
+            const auto u = static_cast<unsigned char>(c);
+            const bool letter = u < 0x80 && std::isalpha(u), digit = u < 0x80 && std::isdigit(u);
+            if (letter || (digit && !text.empty())) {
+                text += static_cast<char>(begins ? std::toupper(u) : std::tolower(u));
+                begins = digit;
+            } else if (u < 0x80) {
+                begins = true;
+            }
+            if (text.size() == 32) break;
+        }
+        return text;
+    }
+
+    bool by_name_;
+    std::map<Id, std::string> suffixes_;
+    std::set<std::string> taken_;
+};
+
 constexpr std::size_t scale_offset = 12, parameters_offset = 13;
 
 /// Writes one function body, for the distance alone or for distance and material together.
 class Writer {
 public:
-    Writer(const FieldTree& tree, ParameterBlock& block, bool with_material)
-        : tree_(tree), block_(block), with_material_(with_material) {}
+    Writer(const FieldTree& tree, ParameterBlock& block, const CustomSuffixes& suffixes, bool with_material)
+        : tree_(tree), block_(block), suffixes_(suffixes), with_material_(with_material) {}
+
+    /// The code of the custom nodes, once for each; `called` gets the names in it that are not its own.
+    Lines custom_functions(std::string& called) {
+        Lines out;
+        std::set<Id> done;
+        if (tree_.root) custom_functions(*tree_.root, done, out, called);
+        return out;
+    }
 
     Lines write() {
         Lines body;
@@ -178,7 +231,7 @@ private:
                         "",
                         false};
         std::size_t at = first + parameters_offset;
-        for (const Parameter& parameter : n.kind->parameters) {
+        for (const Parameter& parameter : n.parameters) {
             numbers.arguments += ", " + read(parameter, at);
             at += static_cast<std::size_t>(parameter.components());
         }
@@ -198,8 +251,8 @@ private:
             q += " / " + literal(n.scale);
             numbers.factor = literal(n.scale) + " * ";
         }
-        for (std::size_t i = 0; i < n.kind->parameters.size(); ++i) {
-            numbers.arguments += ", " + written(n.kind->parameters[i], n.values[i]);
+        for (std::size_t i = 0; i < n.parameters.size(); ++i) {
+            numbers.arguments += ", " + written(n.parameters[i], n.values[i]);
             numbers.hard = numbers.hard && n.values[i] == glm::vec3(0.0f);
         }
         return numbers;
@@ -231,8 +284,40 @@ private:
         return n.kind->takes_children() ? group(n, p, out, indent) : primitive(n, p);
     }
 
+    void custom_functions(const FieldNode& n, std::set<Id>& done, Lines& out, std::string& called) {
+        for (const FieldNode& child : n.children) custom_functions(child, done, out, called);
+        if (!n.code || !done.insert(n.id).second) return;
+        const bool live = block_.is_live(n);
+        std::size_t at = live ? block_.first(n) + parameters_offset : 0;
+        std::vector<std::string> arguments;
+        for (std::size_t i = 0; i < n.parameters.size(); ++i) {
+            arguments.push_back(live ? read(n.parameters[i], at) : written(n.parameters[i], n.values[i]));
+            at += static_cast<std::size_t>(n.parameters[i].components());
+        }
+        const std::string& suffix = suffixes_.of(n);
+        out.add("", n.id, comment(n));
+        const std::string code = n.code->glsl(suffix, std::span(arguments).subspan(n.kind->parameters.size()));
+        for (std::size_t start = 0; start < code.size();) {
+            const std::size_t end = std::min(code.find('\n', start), code.size());
+            out.add(code.substr(start, end - start), n.id);
+            start = end + 1;
+        }
+        out.add("", n.id);
+        out.add(fmt::format("float sdf_{}_in_bounds(vec3 p) {{", suffix), n.id);
+        out.add(fmt::format("    vec3 nearest = nearest_custom(p, {});", arguments[0]), n.id);
+        out.add(fmt::format("    return custom_distance(sdf_{}(nearest), {}, p, nearest, {});", suffix,
+                            literal(n.code->lipschitz()), arguments[0]),
+                n.id);
+        out.add("}", n.id);
+        out.add("");
+        called += n.code->called() + "nearest_custom custom_distance ";
+    }
+
     Result primitive(const FieldNode& n, const std::string& p) {
         const Numbers own = numbers(n, p);
+        if (n.code)
+            return {fmt::format("{}sdf_{}_in_bounds({})", own.factor, suffixes_.of(n), own.point),
+                    with_material_ ? own.material : ""};
         return {fmt::format("{}{}({}{})", own.factor, n.kind->function, own.point, own.arguments),
                 with_material_ ? own.material : ""};
     }
@@ -404,6 +489,7 @@ private:
 
     const FieldTree& tree_;
     ParameterBlock& block_;
+    const CustomSuffixes& suffixes_;
     bool with_material_;
     Lines functions_;
     int next_group_ = 0;  ///< counts the same in both functions, so that they share the contents of repetitions
@@ -421,26 +507,37 @@ constexpr const char* live_helpers =
     "12);\n"
     "}\n";
 
-}  // namespace
-
-GeneratedScene generate(const Scene& scene, Tier tier, Id tuned) {
-    GeneratedScene generated;
-    const FieldTree tree(scene);
-    ParameterBlock block(tree, tier, tuned);
-    const Lines distance = Writer(tree, block, false).write();
-    const Lines material = Writer(tree, block, true).write();
+Lines write(const FieldTree& tree, ParameterBlock& block, const CustomSuffixes& suffixes) {
+    std::string called;
+    const Lines custom = Writer(tree, block, suffixes, false).custom_functions(called);
+    const Lines distance = Writer(tree, block, suffixes, false).write();
+    const Lines material = Writer(tree, block, suffixes, true).write();
 
     Lines all;
-    std::string library = used_shapes(distance.key + material.key);
+    std::string library = used_shapes(called + distance.key + material.key);
     if (!block.values.empty()) library += std::string(live_helpers) + "\n";
     for (std::size_t start = 0; start < library.size();) {
         const std::size_t end = library.find('\n', start);
         all.add(library.substr(start, end - start));
         start = end + 1;
     }
+    all.append(custom);
     all.append(distance);
     all.add("");
     all.append(material);
+    return all;
+}
+
+}  // namespace
+
+GeneratedScene generate(const Scene& scene, Tier tier, Id tuned) {
+    GeneratedScene generated;
+    const FieldTree tree(scene);
+    ParameterBlock block(tree, tier, tuned);
+    const CustomSuffixes suffixes(tree, true);
+    Lines all = write(tree, block, suffixes);
+    // Names of nodes are part of the text, not of the program.
+    if (!suffixes.empty()) all.key = write(tree, block, CustomSuffixes(tree, false)).key;
     generated.text = std::move(all.text);
     generated.key = std::move(all.key);
     generated.parameters = std::move(block.values);

@@ -27,6 +27,7 @@ private:
         std::uint32_t material;
     };
     static Sample evaluate(const FieldNode& node, glm::vec3 p);
+    static float custom(const FieldNode& node, glm::vec3 p);
     static Sample fold(const FieldNode& node, glm::vec3 p);
 
     FieldTree tree_;

@@ -71,8 +71,10 @@ FieldNode prepare(const Scene& scene, const Node& node, std::uint32_t inherited)
     for (const Node& child : node.children)
         if (!is_empty(child)) part.children.push_back(prepare(scene, child, part.material));
 
-    for (std::size_t i = 0; i < kind.parameters.size(); ++i)
-        part.values.push_back(to_code_units(kind.parameters[i], node.values[i]));
+    part.parameters = parameters(node);
+    part.code = node.code;
+    for (std::size_t i = 0; i < part.parameters.size(); ++i)
+        part.values.push_back(to_code_units(part.parameters[i], node.values[i]));
     if (kind.derive) {
         part.values.resize(kind.parameters.size() + kind.derived.size());
         kind.derive(content_extent(part, 0.0f), part.values, std::span(part.values).subspan(kind.parameters.size()));

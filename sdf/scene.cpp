@@ -1,5 +1,7 @@
 #include "sdf/scene.h"
 
+#include "sdf/custom_code.h"
+
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
@@ -7,6 +9,9 @@
 #include <utility>
 
 namespace farfield {
+
+std::string_view embedded_shapes(std::string_view name);  // generated from the .glsl files by embed.cmake
+
 namespace {
 
 template <class T>
@@ -58,8 +63,20 @@ Scene::Scene() {
 Node make_node(NodeKind kind) {
     Node node;
     node.kind = kind;
-    for (const Parameter& parameter : info(kind).parameters) node.values.push_back(parameter.initial);
+    if (kind == NodeKind::custom) node.code = default_custom_code();
+    for (const Parameter& parameter : parameters(node)) node.values.push_back(parameter.initial);
     return node;
+}
+
+std::shared_ptr<const CustomCode> default_custom_code() {
+    static const auto code = CustomCode::parse(embedded_shapes("custom_default.glsl")).code;
+    return code;
+}
+
+std::vector<Parameter> parameters(const Node& node) {
+    std::vector<Parameter> list = info(node.kind).parameters;
+    if (node.code) list.insert(list.end(), node.code->parameters().begin(), node.code->parameters().end());
+    return list;
 }
 
 const Node* find_node(const Scene& scene, Id id) { return id == 0 ? nullptr : find_below(scene.root, id); }
@@ -76,6 +93,7 @@ std::uint32_t material_index(const Scene& scene, Id id, std::uint32_t inherited)
 }
 
 bool is_empty(const Node& node) {
+    if (node.kind == NodeKind::custom) return !node.code;
     if (!info(node.kind).takes_children()) return false;
     if (node.children.empty()) return true;
     if (node.kind == NodeKind::subtract) return is_empty(node.children[0]);

@@ -108,7 +108,7 @@ void inspect_node(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
     name_row(ui, ui.inspected, node.name, info(node.kind).label, edits);
     kind_row(ui, scene, node, edits);
     material_row(ui, scene, node, edits);
-    const std::size_t own = info(node.kind).parameters.size();
+    const std::size_t own = parameters(node).size();
     if (own > 0) section(ui, "Shape");
     value_rows(ui, "inspector", scene, ui.inspected, edits, 0, own);
     section(ui, "Placement");
