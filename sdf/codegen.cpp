@@ -1,12 +1,12 @@
 #include "sdf/codegen.h"
 
+#include "sdf/custom_suffixes.h"
 #include "sdf/field_tree.h"
 #include "sdf/shape_library.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <map>
 #include <optional>
 #include <set>
@@ -119,50 +119,6 @@ private:
     Id tuned_;
     std::set<Id> above_tuned_;
     std::map<Id, std::size_t> first_, first_derived_;
-};
-
-/// What the global names of each custom node's code end in: the node's name in camel case, or a number. All other names
-/// in a program are small, with underscores, or all capitals; so no two are the same.
-class CustomSuffixes {
-public:
-    CustomSuffixes(const FieldTree& tree, bool by_name) : by_name_(by_name) {
-        if (tree.root) gather(*tree.root);
-    }
-    const std::string& of(const FieldNode& n) const { return suffixes_.at(n.id); }
-    bool empty() const { return suffixes_.empty(); }
-
-private:
-    void gather(const FieldNode& n) {
-        for (const FieldNode& child : n.children) gather(child);
-        if (!n.code || suffixes_.contains(n.id)) return;
-        std::string suffix = by_name_ ? camel_case(n.name) : "";
-        if (suffix.size() < 2) suffix += "Custom";
-        const std::string first = suffix + (suffix == "Custom" ? "1" : "");
-        std::string free = first;
-        for (int i = 2; !taken_.insert(free).second; ++i) free = fmt::format("{}{}", suffix, i);
-        suffixes_.emplace(n.id, free);
-    }
-    /// The letters and digits of ASCII alone; begins with a letter.
-    static std::string camel_case(const std::string& name) {
-        std::string text;
-        bool begins = true;
-        for (const char c : name) {
-            const auto u = static_cast<unsigned char>(c);
-            const bool letter = u < 0x80 && std::isalpha(u), digit = u < 0x80 && std::isdigit(u);
-            if (letter || (digit && !text.empty())) {
-                text += static_cast<char>(begins ? std::toupper(u) : std::tolower(u));
-                begins = digit;
-            } else if (u < 0x80) {
-                begins = true;
-            }
-            if (text.size() == 32) break;
-        }
-        return text;
-    }
-
-    bool by_name_;
-    std::map<Id, std::string> suffixes_;
-    std::set<std::string> taken_;
 };
 
 constexpr std::size_t scale_offset = 12, parameters_offset = 13;

@@ -97,7 +97,7 @@ TEST_F(FieldOnGpu, AgreesWithTheCpuOnEveryKind) {
 /// Several nodes with the same code and other values, names that meet the library's, and what is no number.
 TEST_F(FieldOnGpu, AgreesWithTheCpuOnCustomCode) {
     const char* const texts[] = {
-        "uniform float radius = 0.5; // [0, 1]\nfloat count = 0.0;\n"
+        "uniform float radius = 0.5; // [0, 1]\nconst float count = 0.0;\n"
         "float sphere(vec3 p) { return length(p) - radius; }\nfloat sdf(vec3 p) { return sphere(p); }",
         "uniform bvec3 axes = bvec3(true, false, true);\nuniform int n = 3; // [1, 5]\nconst float lipschitz = 2.0;\n"
         "float sdf(vec3 p) { for (int i = 0; i < n; ++i) p = mix(p, abs(p) - 0.2, axes); return box(p, vec3(0.2)); }",

@@ -22,11 +22,12 @@ glm::vec3 random_point(std::mt19937& random, float half) {
 
 enum class Repeated { primitives, anything };
 
-/// Operations down to `depth` levels, primitives below; often two children where the kind combines, else one.
+/// Operations down to `depth` levels, primitives of the table below (custom code is any of them); often two children
+/// where the kind combines, else one.
 Node random_tree(int depth, Repeated repeated, std::mt19937& random) {
     std::vector<NodeKind> kinds;
     for (const KindInfo& kind : node_kinds())
-        if (kind.takes_children() == (depth > 1)) kinds.push_back(kind.kind);
+        if (kind.takes_children() == (depth > 1) && kind.kind != NodeKind::custom) kinds.push_back(kind.kind);
     Node node = make_node(kinds[random() % kinds.size()]);
     const KindInfo& kind = info(node.kind);
     const std::vector<Parameter> list = parameters(node);
