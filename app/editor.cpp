@@ -106,6 +106,7 @@ private:
         ui_.trust = &trust_;
         const LayoutResult result = layout_.draw(ui_, {size.x, size.y}, document_, picture_, files_.error(),
                                                  [&](CommandId id) { return enabled(id); });
+        ui_.hand_in = false;
         carry_out(result.edits, gesture_);
         carry_out_camera(result.viewport);
         if (const auto code = std::exchange(ui_.run, nullptr)) document_.accept(*code);
@@ -283,7 +284,7 @@ private:
             if (asked || (busy && command != CommandId::save)) continue;
             if (command == CommandId::save && ImGui::GetIO().WantTextInput) {
                 ImGui::ClearActiveID();  // what is being typed belongs to what is saved
-                save_ = true;
+                save_ = ui_.hand_in = true;
             } else if (const auto view = view_for(press))
                 ui_.view = *view;
             else if (command && enabled(*command))

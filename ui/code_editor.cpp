@@ -97,7 +97,8 @@ Edits CodeEditor::draw(Ui& ui, const Node& node, bool compile, bool revert) {
         compile = true;
     below(ui, node, draft);
     ImGui::PopID();
-    if (!compile) return {};
+    // Saving hands in what was typed; it is no consent to run what comes from elsewhere.
+    if (!compile && (!ui.hand_in || is_stopped(ui, node))) return {};
     draft_of(node);  // checks what was just typed
     if (!draft.errors.empty()) return {};
     if (draft.text == draft.base) {

@@ -46,6 +46,7 @@ struct Ui {
     NumberEntry number;
     const CodeTrust* trust = nullptr;       ///< which code may run; null: all
     std::shared_ptr<const CustomCode> run;  ///< code that the user accepts, for whoever draws the panels
+    bool hand_in = false;                   ///< for a frame: what is being typed is about to be saved
     bool edit_code = false;  ///< the code panel shows the custom code of the selected node, when there is
 };
 
