@@ -2,6 +2,7 @@
 
 #include "app/progress.h"
 #include "renderer/renderer.h"
+#include "sdf/code_trust.h"
 #include "sdf/codegen.h"
 #include "sdf/fields.h"
 #include "sdf/scene_file.h"
@@ -39,8 +40,7 @@ void write_outputs(Renderer& renderer, const std::vector<std::filesystem::path>&
 
 /// A scene with the settings of the command line, and a renderer in a context of its own.
 struct Headless {
-    Headless(const std::filesystem::path& file, const Overrides& overrides, ContextKind kind)
-        : scene(load_scene(file)) {
+    Headless(Scene of, const Overrides& overrides, ContextKind kind) : scene(std::move(of)) {
         overrides.apply(scene.settings);
         context = make_headless_context(kind);
         context->make_current();
@@ -99,9 +99,24 @@ void Overrides::apply(Settings& settings) const {
     }
 }
 
+Scene load_trusted_scene(const std::filesystem::path& file, bool trust_code) {
+    Scene scene = load_scene(file);
+    if (trust_code) return scene;
+    const std::vector<UnknownCode> unknown = unknown_code(scene, CodeTrust(CodeTrust::user_file()));
+    if (unknown.empty()) return scene;
+    const std::size_t more = unknown.size() - 1;
+    throw SceneFileError(
+        file.string(), 0, unknown.front().path,
+        fmt::format("holds custom code from elsewhere{}, which is not run unasked: read it, then open the file in the "
+                    "editor or give --trust-code",
+                    more == 0   ? ""
+                    : more == 1 ? " (and one other node)"
+                                : fmt::format(" (and {} other nodes)", more)));
+}
+
 int run_render(const RenderOptions& options) {
     for (const std::filesystem::path& file : options.outputs) check_output(file, {".exr", ".png"});
-    Headless headless(options.scene, options.overrides, options.context);
+    Headless headless(load_trusted_scene(options.scene, options.trust_code), options.overrides, options.context);
     Renderer& renderer = *headless.renderer;
     FrameOptions frame;
     frame.size = options.size;
@@ -123,7 +138,9 @@ int run_render(const RenderOptions& options) {
 }
 
 int run_glsl(const GlslOptions& options) {
-    fmt::print("{}", generate(load_scene(options.scene), options.live ? Tier::live : Tier::specialised).text);
+    fmt::print("{}", generate(load_trusted_scene(options.scene, options.trust_code),
+                              options.live ? Tier::live : Tier::specialised)
+                         .text);
     return 0;
 }
 
@@ -147,7 +164,7 @@ int run_check(const std::filesystem::path& file) {
 }
 
 int run_bench(const BenchOptions& options) {
-    Headless headless(options.scene, options.overrides, options.context);
+    Headless headless(load_trusted_scene(options.scene, options.trust_code), options.overrides, options.context);
     const Scene& scene = headless.scene;
     Renderer& renderer = *headless.renderer;
     FrameOptions frame;

@@ -32,8 +32,13 @@ struct Overrides {
     void apply(Settings& settings) const;
 };
 
+/// Loads a scene whose custom code may run: all of it with `trust_code`, otherwise what the user's list has. Throws
+/// SceneFileError.
+Scene load_trusted_scene(const std::filesystem::path& file, bool trust_code);
+
 struct RenderOptions {
     std::filesystem::path scene;
+    bool trust_code = false;
     std::vector<std::filesystem::path> outputs;
     glm::ivec2 size{768, 512};
     int frames = 16;
@@ -46,12 +51,14 @@ int run_render(const RenderOptions& options);
 
 struct GlslOptions {
     std::filesystem::path scene;
+    bool trust_code = false;
     bool live = false;
 };
 int run_glsl(const GlslOptions& options);
 
 struct BenchOptions {
     std::filesystem::path scene;
+    bool trust_code = false;
     glm::ivec2 size{512, 512};
     bool live = false;  ///< the live tier too
     int frames = 5;     ///< measured, after one that is not

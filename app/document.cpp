@@ -19,11 +19,18 @@ Scene new_scene() {
 }
 
 std::shared_ptr<const Scene> Document::snapshot() {
-    if (!snapshot_ || snapshot_revision_ != revision()) {
-        snapshot_ = std::make_shared<const Scene>(scene());
-        snapshot_revision_ = revision();
+    const std::pair now(revision(), trust_.revision());
+    if (!snapshot_ || snapshot_revision_ != now) {
+        snapshot_ = std::make_shared<const Scene>(without_unknown_code(scene(), trust_));
+        snapshot_revision_ = now;
     }
     return snapshot_;
+}
+
+Id Document::apply(const Edit& edit, unsigned gesture) {
+    const Id id = history_.apply(edit, gesture);
+    if (const auto* set = std::get_if<SetCode>(&edit)) trust_.accept(*find_node(scene(), set->node)->code);
+    return id;
 }
 
 void Document::reset() {
@@ -33,8 +40,8 @@ void Document::reset() {
     saved_revision_ = history_.revision();
 }
 
-void Document::open(const std::filesystem::path& file) {
-    history_.replace(load_scene(file));
+void Document::open(Scene scene, const std::filesystem::path& file) {
+    history_.replace(std::move(scene));
     file_ = file;
     ++generation_;
     saved_revision_ = history_.revision();

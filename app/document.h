@@ -1,11 +1,13 @@
 // The open scene: its history, its file, and whether the file holds what is on screen.
 #pragma once
 
+#include "sdf/code_trust.h"
 #include "sdf/edit.h"
 
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace farfield {
 
@@ -14,21 +16,24 @@ Scene new_scene();
 
 class Document {
 public:
-    Document() { reset(); }
+    /// `trust` says which code may run, and learns what is written here.
+    explicit Document(CodeTrust& trust) : trust_(trust) { reset(); }
 
     const Scene& scene() const { return history_.scene(); }
-    /// The current scene for another thread; the same object until something changes.
+    /// The current scene for the renderer, without code that may not run; the same object until something changes.
     std::shared_ptr<const Scene> snapshot();
     const History& history() const { return history_; }
     std::uint64_t revision() const { return history_.revision(); }
 
-    Id apply(const Edit& edit, unsigned gesture) { return history_.apply(edit, gesture); }
+    Id apply(const Edit& edit, unsigned gesture);
+    const CodeTrust& trust() const { return trust_; }
+    void accept(const CustomCode& code) { trust_.accept(code); }
     void undo() { history_.undo(); }
     void redo() { history_.redo(); }
 
     void reset();
-    /// Throws SceneFileError and leaves everything as it was when the file does not hold a scene.
-    void open(const std::filesystem::path& file);
+    /// The scene of `file` takes this one's place.
+    void open(Scene scene, const std::filesystem::path& file);
     /// Throws SceneFileError.
     void save(const std::filesystem::path& file);
 
@@ -39,12 +44,13 @@ public:
     std::string name() const { return file_.empty() ? "untitled" : file_.filename().string(); }
 
 private:
+    CodeTrust& trust_;
     History history_;
     std::filesystem::path file_;
     std::uint64_t saved_revision_ = 0;
     std::uint64_t generation_ = 0;
     std::shared_ptr<const Scene> snapshot_;
-    std::uint64_t snapshot_revision_ = 0;
+    std::pair<std::uint64_t, std::size_t> snapshot_revision_;  ///< of the document and of what may run
 };
 
 }  // namespace farfield

@@ -52,7 +52,7 @@ public:
           render_(window_.make_shared_context()),
           ui_(theme_for(window_), Report(options.report)),
           layout_(ui_.theme) {
-        if (!options.scene.empty()) files_.open(options.scene);
+        if (!options.scene.empty()) files_.open(options.scene, options.trust_code);
         show_new_document();
     }
 
@@ -103,10 +103,13 @@ private:
         keyboard();
 
         const glm::vec2 size(window_.size());
+        ui_.trust = &trust_;
         const LayoutResult result = layout_.draw(ui_, {size.x, size.y}, document_, picture_, files_.error(),
                                                  [&](CommandId id) { return enabled(id); });
+        ui_.hand_in = false;
         carry_out(result.edits, gesture_);
         carry_out_camera(result.viewport);
+        if (const auto code = std::exchange(ui_.run, nullptr)) document_.accept(*code);
         if (std::exchange(save_, false)) files_.save();
         if (result.dismissed) files_.dismiss();
         if (result.command) perform(*result.command);
@@ -128,6 +131,7 @@ private:
     }
 
     void show_new_document() {
+        layout_.forget();
         shown_document_ = document_.generation();
         ui_.selection = ui_.inspected = {ObjectType::node, document_.scene().root.id};
         ui_.view = View::result;
@@ -138,7 +142,8 @@ private:
         const bool splitting = held_ && !gesture_edited_;
         if (size_.x == 0 || !splitting) size_ = glm::max(glm::ivec2(picture_size * window_.pixels_per_unit()), 1);
         const Id tuned = ui_.selection.type == ObjectType::node ? ui_.selection.id : 0;
-        const auto wanted = std::tuple(document_.revision(), size_.x, size_.y, ui_.view, tuned, interacting_);
+        const auto wanted =
+            std::tuple(document_.revision(), trust_.revision(), size_.x, size_.y, ui_.view, tuned, interacting_);
         if (wanted == submitted_) return;
         submitted_ = wanted;
         render_.submit({.scene = document_.snapshot(),
@@ -291,7 +296,7 @@ private:
             if (asked || (busy && command != CommandId::save)) continue;
             if (command == CommandId::save && ImGui::GetIO().WantTextInput) {
                 ImGui::ClearActiveID();  // what is being typed belongs to what is saved
-                save_ = true;
+                save_ = ui_.hand_in = true;
             } else if (const auto view = view_for(press))
                 ui_.view = *view;
             else if (command && enabled(*command))
@@ -341,7 +346,8 @@ private:
     // In order of life: the renderer's context goes before the window it shares with.
     Window window_;
     RenderThread render_;
-    Document document_;
+    CodeTrust trust_{CodeTrust::user_file()};
+    Document document_{trust_};
     FileActions files_{document_};
     Ui ui_;
     Layout layout_;
@@ -357,7 +363,7 @@ private:
     bool gesture_moves_ = false;   ///< and more of it than settings
     bool interacting_ = false;
     glm::ivec2 size_{0};
-    std::tuple<std::uint64_t, int, int, View, Id, bool> submitted_{};
+    std::tuple<std::uint64_t, std::size_t, int, int, View, Id, bool> submitted_{};
     std::uint64_t shown_document_ = 0;  ///< its generation
 };
 

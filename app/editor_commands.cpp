@@ -56,6 +56,7 @@ constexpr std::pair<const char*, const char*> mouse[] = {
     {"Drag a node in the tree", "Re-order, or move into another"},
     {"Right-click a node", "What can be done with it"},
     {"Click a line of code", "Select its node; drag to select text"},
+    {"Ctrl+Enter in custom code", "Compile it"},
 };
 
 bool is_on(const Ui& ui, CommandId id) {

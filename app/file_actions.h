@@ -1,10 +1,11 @@
-// New, open, save and quit, with the question before unsaved work is lost.
+// New, open, save and quit, with the questions before unsaved work is lost and before code from elsewhere runs.
 #pragma once
 
 #include "app/document.h"
 #include "app/file_dialog.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace farfield {
@@ -15,7 +16,8 @@ public:
 
     void create();
     void open();
-    void open(const std::filesystem::path& file);
+    /// `trust_code`: what it holds may run.
+    void open(const std::filesystem::path& file, bool trust_code = false);
     void save();
     void save_as();
     void quit();
@@ -45,7 +47,9 @@ private:
 
     /// Does it at once, or after the user agreed to lose or save what is unsaved.
     void unless_unsaved(Action action);
-    void load(const std::filesystem::path& file);
+    void load(const std::filesystem::path& file, bool trust_code = false);
+    void ask_about_unsaved(Ui& ui);
+    void ask_about_code(Ui& ui);
     bool write(const std::filesystem::path& file);
 
     Document& document_;
@@ -54,6 +58,12 @@ private:
     Action waiting_;  ///< for the answer about unsaved work
     Action after_save_;
     bool ask_ = false, quits_ = false;
+    /// A scene with code that may not run yet, until the user has decided.
+    struct Foreign {
+        std::filesystem::path file;
+        Scene scene;
+    };
+    std::optional<Foreign> foreign_;
     std::string error_;
     Failed failed_ = Failed::edit;  ///< what the error is about
 };

@@ -140,7 +140,7 @@ void Layout::draw_middle(Ui& ui, ImVec2 low, ImVec2 size, const Document& docume
     if (ui.show_code) {
         // Beside the picture where both can be wide, otherwise below it: a line of code has some ninety characters.
         const float bar = ui.theme.px(5.0f), least = ui.theme.px(120.0f);
-        const auto draw = [&] { code_.draw(ui, document.scene(), document.revision()); };
+        const auto draw = [&] { append(result.edits, code_.draw(ui, document.scene(), document.revision())); };
         if (size.x >= ui.theme.px(1100.0f)) {
             const float width = within(code_width_, least, size.x - bar - least);
             room.x = size.x - width - bar;

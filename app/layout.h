@@ -27,6 +27,8 @@ public:
                       const std::string& message, const std::function<bool(CommandId)>& enabled);
 
     const CodePanel& code() const { return code_; }
+    /// Another document is shown: what was typed and not handed in belongs to the old one.
+    void forget() { code_.forget(); }
 
 private:
     void draw_panels(Ui& ui, ImVec2 low, ImVec2 size, const Document& document, const RenderedPicture& picture,

@@ -96,6 +96,10 @@ void add_common(CLI::App& command, glm::ivec2& size, ContextKind& context, Overr
     }
 }
 
+void add_trust(CLI::App& command, bool& trust) {
+    command.add_flag("--trust-code", trust, "Run custom code in the scene that is not known here");
+}
+
 /// "--size: 1 required WxH missing", as CLI11 has it, in the words of the other messages.
 std::string nothing_given(std::string message) {
     constexpr std::string_view required = "1 required ", missing = " missing";
@@ -136,6 +140,8 @@ int run(int argc, char** argv) {
                    "Write names, places and state of the editor's controls to this file (for scripted tests)")
         ->type_name("FILE");
 
+    add_trust(app, editor.trust_code);
+
     RenderOptions render;
     CLI::App* render_command = app.add_subcommand("render", "Render a scene to images without a window");
     render_command->add_option("SCENE", render.scene, "Scene file")->required();
@@ -159,12 +165,15 @@ int run(int argc, char** argv) {
             },
             "What the picture shows, default result")
         ->type_name(view_names);
+    add_trust(*render_command, render.trust_code);
     add_common(*render_command, render.size, render.context, render.overrides);
 
     GlslOptions glsl;
     CLI::App* glsl_command = app.add_subcommand("glsl", "Print the generated distance function");
     glsl_command->add_option("SCENE", glsl.scene, "Scene file")->required();
     glsl_command->add_flag("--live", glsl.live, "The tier that reads its numbers from a parameter block");
+
+    add_trust(*glsl_command, glsl.trust_code);
 
     std::filesystem::path check_scene;
     CLI::App* check_command = app.add_subcommand("check", "Validate a scene file");
@@ -177,6 +186,7 @@ int run(int argc, char** argv) {
     bench_command->add_option("SCENE", bench.scene, "Scene file")->required();
     add_whole(*bench_command, "--frames", bench.frames, 1, 10'000, "Frames to measure, default 5");
     bench_command->add_flag("--live", bench.live, "Also the tier that reads its numbers from a parameter block");
+    add_trust(*bench_command, bench.trust_code);
     add_common(*bench_command, bench.size, bench.context, bench.overrides);
 
     ContactSheetOptions sheet;

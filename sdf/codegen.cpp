@@ -1,5 +1,6 @@
 #include "sdf/codegen.h"
 
+#include "sdf/custom_suffixes.h"
 #include "sdf/field_tree.h"
 #include "sdf/shape_library.h"
 
@@ -67,6 +68,12 @@ struct Lines {
         if (!blank) key += code + "\n";
         nodes.push_back(node);
     }
+    /// A line of the user's own, in which @ means nothing.
+    void add_as_it_is(const std::string& code, Id node) {
+        text += code + "\n";
+        key += code + "\n";
+        nodes.push_back(node);
+    }
     void append(const Lines& other) {
         text += other.text;
         key += other.key;
@@ -131,7 +138,7 @@ public:
         add(n.translate);
         for (int column = 0; column < 3; ++column) add(n.to_own[column]);
         values.push_back(n.scale);
-        for (std::size_t i = 0; i < n.kind->parameters.size(); ++i) add(n.kind->parameters[i], n.values[i]);
+        for (std::size_t i = 0; i < n.parameters.size(); ++i) add(n.parameters[i], n.values[i]);
         values.push_back(n.material == inherited_material ? -1.0f : static_cast<float>(n.material));
         return place->second;
     }
@@ -176,8 +183,23 @@ constexpr std::size_t scale_offset = 12, parameters_offset = 13;
 /// together.
 class Writer {
 public:
-    Writer(const FieldTree& tree, const std::vector<std::string>& names, ParameterBlock& block, bool with_material)
-        : tree_(tree), names_(names), block_(block), with_material_(with_material), functions_{names} {}
+    Writer(const FieldTree& tree, const std::vector<std::string>& names, ParameterBlock& block,
+           const CustomSuffixes& suffixes, bool with_material)
+        : tree_(tree),
+          names_(names),
+          block_(block),
+          suffixes_(suffixes),
+          with_material_(with_material),
+          functions_{names} {}
+
+    /// The code of the custom nodes, once for each; `called` gets the names in it that are not its own.
+    Lines custom_functions(std::string& called) {
+        Lines out{names_};
+        std::set<Id> done;
+        for (const FieldNode& definition : tree_.definitions) custom_functions(definition, done, out, called);
+        if (tree_.root) custom_functions(*tree_.root, done, out, called);
+        return out;
+    }
 
     Lines write() {
         for (std::size_t i = 0; i < tree_.definitions.size(); ++i) write_definition(i);
@@ -253,7 +275,7 @@ private:
                         "",
                         false};
         std::size_t at = first + parameters_offset;
-        for (const Parameter& parameter : n.kind->parameters) {
+        for (const Parameter& parameter : n.parameters) {
             numbers.arguments += ", " + read(parameter, at);
             at += static_cast<std::size_t>(parameter.components());
         }
@@ -274,8 +296,8 @@ private:
             q += " / " + literal(n.scale);
             numbers.factor = literal(n.scale) + " * ";
         }
-        for (std::size_t i = 0; i < n.kind->parameters.size(); ++i) {
-            numbers.arguments += ", " + written(n.kind->parameters[i], n.values[i]);
+        for (std::size_t i = 0; i < n.parameters.size(); ++i) {
+            numbers.arguments += ", " + written(n.parameters[i], n.values[i]);
             numbers.hard = numbers.hard && n.values[i] == glm::vec3(0.0f);
         }
         return numbers;
@@ -333,8 +355,40 @@ private:
         return material;
     }
 
+    void custom_functions(const FieldNode& n, std::set<Id>& done, Lines& out, std::string& called) {
+        for (const FieldNode& child : n.children) custom_functions(child, done, out, called);
+        if (!n.code || !done.insert(n.id).second) return;
+        const bool live = block_.is_live(n);
+        std::size_t at = live ? block_.first(n) + parameters_offset : 0;
+        std::vector<std::string> arguments;
+        for (std::size_t i = 0; i < n.parameters.size(); ++i) {
+            arguments.push_back(live ? read(n.parameters[i], at) : written(n.parameters[i], n.values[i]));
+            at += static_cast<std::size_t>(n.parameters[i].components());
+        }
+        const std::string& suffix = suffixes_.of(n);
+        out.add("", n.id, comment(n));
+        const std::string code = n.code->glsl(suffix, std::span(arguments).subspan(n.kind->parameters.size()));
+        for (std::size_t start = 0; start < code.size();) {
+            const std::size_t end = std::min(code.find('\n', start), code.size());
+            out.add_as_it_is(code.substr(start, end - start), n.id);
+            start = end + 1;
+        }
+        out.add("", n.id);
+        out.add(fmt::format("float sdf_{}_in_bounds(vec3 p) {{", suffix), n.id);
+        out.add(fmt::format("    vec3 nearest = nearest_custom(p, {});", arguments[0]), n.id);
+        out.add(fmt::format("    return custom_distance(sdf_{}(nearest), {}, p, nearest, {});", suffix,
+                            literal(n.code->lipschitz()), arguments[0]),
+                n.id);
+        out.add("}", n.id);
+        out.add("");
+        called += n.code->called() + "nearest_custom custom_distance ";
+    }
+
     Result primitive(const FieldNode& n, const std::string& p) {
         const Numbers own = numbers(n, p);
+        if (n.code)
+            return {fmt::format("{}sdf_{}_in_bounds({})", own.factor, suffixes_.of(n), own.point),
+                    with_material_ ? own.material : ""};
         return {fmt::format("{}{}({}{})", own.factor, n.kind->function, own.point, own.arguments),
                 with_material_ ? own.material : ""};
     }
@@ -515,6 +569,7 @@ private:
     const FieldTree& tree_;
     const std::vector<std::string>& names_;
     ParameterBlock& block_;
+    const CustomSuffixes& suffixes_;
     bool with_material_;
     Lines functions_;
     std::vector<Result> materials_;  ///< of the definitions
@@ -537,7 +592,7 @@ constexpr const char* live_helpers =
     "}\n";
 
 bool is_flat(const FieldNode& n) {
-    return n.kind->stretch || (n.kind->role == Role::primitive && !n.kind->exact) ||
+    return n.code || n.kind->stretch || (n.kind->role == Role::primitive && !n.kind->exact) ||
            std::any_of(n.children.begin(), n.children.end(), is_flat);
 }
 
@@ -548,18 +603,15 @@ constexpr const char* inherited_helper =
     "    return parameter(i) < 0.0 ? inherited : uint(parameter(i));\n"
     "}\n";
 
-}  // namespace
-
-GeneratedScene generate(const Scene& scene, Tier tier, Id tuned) {
-    GeneratedScene generated;
-    const FieldTree tree(scene);
-    ParameterBlock block(tree, tier, tuned);
-    const std::vector<std::string> names = code_names(tree.definitions);
-    const Lines distance = Writer(tree, names, block, false).write();
-    const Lines material = Writer(tree, names, block, true).write();
+Lines write(const FieldTree& tree, ParameterBlock& block, const std::vector<std::string>& names,
+            const CustomSuffixes& suffixes) {
+    std::string called;
+    const Lines custom = Writer(tree, names, block, suffixes, false).custom_functions(called);
+    const Lines distance = Writer(tree, names, block, suffixes, false).write();
+    const Lines material = Writer(tree, names, block, suffixes, true).write();
 
     Lines all{names};
-    std::string library = used_shapes(distance.key + material.key);
+    std::string library = used_shapes(called + distance.key + material.key);
     if (!block.values.empty()) library += live_helpers;
     if (material.key.find("live_material(") != std::string::npos) library += inherited_helper;
     if (!block.values.empty()) library += "\n";
@@ -568,9 +620,24 @@ GeneratedScene generate(const Scene& scene, Tier tier, Id tuned) {
         all.add(library.substr(start, end - start));
         start = end + 1;
     }
+    all.append(custom);
     all.append(distance);
     all.add("");
     all.append(material);
+    return all;
+}
+
+}  // namespace
+
+GeneratedScene generate(const Scene& scene, Tier tier, Id tuned) {
+    GeneratedScene generated;
+    const FieldTree tree(scene);
+    ParameterBlock block(tree, tier, tuned);
+    const std::vector<std::string> names = code_names(tree.definitions);
+    const CustomSuffixes suffixes(tree, true);
+    Lines all = write(tree, block, names, suffixes);
+    // Names of nodes are part of the text, not of the program.
+    if (!suffixes.empty()) all.key = write(tree, block, names, CustomSuffixes(tree, false)).key;
     generated.text = std::move(all.text);
     generated.key = std::move(all.key);
     generated.parameters = std::move(block.values);

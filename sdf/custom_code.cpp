@@ -3,6 +3,7 @@
 #include "sdf/custom_compiler.h"
 #include "sdf/fields.h"
 #include "sdf/scene_format.h"
+#include "sdf/sha256.h"
 #include "sdf/shape_library.h"
 
 #include <fmt/format.h>
@@ -120,8 +121,10 @@ std::map<std::string, std::vector<float>> global_values(TIntermNode* root) {
 
 /// Keys of a node in a scene file that no parameter can have.
 bool is_reserved(std::string_view key) {
-    for (const std::string_view taken : {format::kind, format::name, format::material, format::children, "code"})
+    for (const std::string_view taken : {format::kind, format::name, format::material, format::children, format::code})
         if (key == taken) return true;
+    for (const Parameter& parameter : info(NodeKind::custom).parameters)
+        if (key == parameter.key) return true;
     const auto& transform = fields<Transform>();
     return std::any_of(transform.begin(), transform.end(),
                        [&](const Field<Transform>& field) { return key == field.parameter.key; });
@@ -161,6 +164,8 @@ std::mutex& glslang_mutex() {
 
 }  // namespace
 
+CustomCode::CustomCode(std::string_view text) : text_(text), hash_(sha256(text)) {}
+
 CustomCode::Parsed CustomCode::parse(std::string_view text) {
     Parsed parsed;
     std::vector<CodeError>& errors = parsed.errors;
@@ -176,9 +181,7 @@ CustomCode::Parsed CustomCode::parse(std::string_view text) {
     Names clashing;
     for (const std::string& name : source.globals())
         if (!used_shapes(name).empty()) clashing.insert(name);
-    std::string called;
-    for (const std::string& name : source.foreign_names()) called += name + " ";
-    const std::string library = "#version 430 core\n" + used_shapes(called);
+    const std::string library = "#version 430 core\n" + used_shapes(code->called());
     const std::string own = source.renamed(clashing, own_suffix);
 
     const std::lock_guard lock(glslang_mutex());
@@ -249,6 +252,12 @@ std::string CustomCode::glsl(std::string_view suffix, std::span<const std::strin
     for (std::size_t i = 0; i < arguments.size(); ++i)
         declarations.push_back(declaration(source_->uniforms()[i], arguments[i]));
     return source_->renamed(names, suffix, declarations);
+}
+
+std::string CustomCode::called() const {
+    std::string names;
+    for (const std::string& name : source_->foreign_names()) names += name + " ";
+    return names;
 }
 
 float CustomCode::evaluate(glm::vec3 p, std::span<const glm::vec3> values) const {

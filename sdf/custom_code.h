@@ -40,6 +40,7 @@ public:
     static Parsed parse(std::string_view text);
 
     const std::string& text() const { return text_; }  ///< as it was given
+    const std::string& hash() const { return hash_; }  ///< sha256 of the text
     /// They refer to texts that live as long as this object.
     std::span<const Parameter> parameters() const { return parameters_; }
     float lipschitz() const { return lipschitz_; }  ///< as declared, or 1
@@ -50,15 +51,18 @@ public:
     /// shapes.glsl and operations.glsl that the result calls (see used_shapes).
     std::string glsl(std::string_view suffix, std::span<const std::string> arguments) const;
 
+    /// Names in the text that are not its own, for used_shapes: comments do not count.
+    std::string called() const;
+
     /// The value of sdf at p on the CPU; `values` in code units, in the order of the parameters. As on the GPU it may
     /// be infinite or not a number where the code divides by zero.
     float evaluate(glm::vec3 p, std::span<const glm::vec3> values) const;
 
 private:
-    explicit CustomCode(std::string_view text) : text_(text) {}
+    explicit CustomCode(std::string_view text);
     void add_parameter(const CustomUniform& uniform, std::span<const float> initial, std::vector<CodeError>& errors);
 
-    std::string text_;
+    std::string text_, hash_;
     std::unique_ptr<const CustomSource> source_;
     std::deque<std::string> strings_;  ///< keys and tips of the parameters
     std::vector<Parameter> parameters_;

@@ -1,5 +1,7 @@
 #include "sdf/edit.h"
 
+#include "sdf/custom_code.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -99,14 +101,16 @@ void rename(std::vector<T>& items, Id id, const std::string& name, const char* w
 void check_subtree(const Scene& scene, const Node& node) {
     const KindInfo& kind = info(node.kind);
     check_name(node.name);
-    if (node.values.size() != kind.parameters.size())
-        throw EditError(
-            fmt::format("a {} has {} parameters, not {}", kind.label, kind.parameters.size(), node.values.size()));
+    if ((node.kind == NodeKind::custom) != (node.code != nullptr))
+        throw EditError(fmt::format("{}: custom nodes have code, and no others", display_name(node)));
+    const std::vector<Parameter> list = parameters(node);
+    if (node.values.size() != list.size())
+        throw EditError(fmt::format("a {} has {} parameters, not {}", kind.label, list.size(), node.values.size()));
     const auto check = [](const Parameter& parameter, glm::vec3 value) {
         if (const std::string why = why_refused(parameter, value); !why.empty())
             throw EditError(fmt::format("{}: {}", parameter.key, why));
     };
-    for (std::size_t i = 0; i < node.values.size(); ++i) check(kind.parameters[i], node.values[i]);
+    for (std::size_t i = 0; i < node.values.size(); ++i) check(list[i], node.values[i]);
     for (const auto& field : fields<Transform>()) check(field.parameter, field.get(node.transform));
     if (node.material != 0 && !find_material(scene, node.material))
         throw EditError(fmt::format("there is no material {}", node.material));
@@ -173,6 +177,16 @@ Id apply_one(Scene& scene, const SetName& e) {
     }
 }
 
+/// Gives `to` the values of `from` whose keys both have, as `adapted(parameter, value)`.
+template <class Adapt>
+void carry_over(const Node& from, Node& to, Adapt adapted) {
+    const std::vector<Parameter> old = parameters(from), list = parameters(to);
+    for (std::size_t i = 0; i < list.size(); ++i)
+        for (std::size_t j = 0; j < old.size(); ++j)
+            if (std::string_view(list[i].key) == old[j].key && list[i].components() == old[j].components())
+                to.values[i] = adapted(list[i], from.values[j]);
+}
+
 Id apply_one(Scene& scene, const SetKind& e) {
     Node& node = node_for(scene, e.node);
     const KindInfo& to = info(e.kind);
@@ -183,16 +197,32 @@ Id apply_one(Scene& scene, const SetKind& e) {
         throw EditError(fmt::format("{} cannot become an instance: add an instance of a definition instead",
                                     display_name(scene, node)));
     Node fresh = make_node(e.kind);
-    const KindInfo& from = info(node.kind);
-    for (std::size_t i = 0; i < to.parameters.size(); ++i)
-        for (std::size_t j = 0; j < from.parameters.size(); ++j)
-            if (std::string_view(to.parameters[i].key) == from.parameters[j].key &&
-                to.parameters[i].components() == from.parameters[j].components() &&
-                why_refused(to.parameters[i], node.values[j]).empty())
-                fresh.values[i] = node.values[j];
+    carry_over(node, fresh, [](const Parameter& parameter, glm::vec3 value) {
+        return why_refused(parameter, value).empty() ? value : parameter.initial;
+    });
     if (to.role != Role::instance) node.definition = 0;
     node.kind = e.kind;
     node.values = std::move(fresh.values);
+    node.code = std::move(fresh.code);
+    return 0;
+}
+
+Id apply_one(Scene& scene, const SetCode& e) {
+    Node& node = node_for(scene, e.node);
+    if (node.kind != NodeKind::custom) throw EditError(fmt::format("{} has no code", display_name(node)));
+    CustomCode::Parsed parsed = CustomCode::parse(e.text);
+    if (!parsed.code) {
+        std::string errors;
+        for (const CodeError& error : parsed.errors) errors += fmt::format("\nline {}: {}", error.line, error.message);
+        throw EditError(fmt::format("the code of {} stays as it was:{}", display_name(node), errors));
+    }
+    Node fresh = make_node(NodeKind::custom);
+    fresh.code = std::move(parsed.code);
+    fresh.values.clear();
+    for (const Parameter& parameter : parameters(fresh)) fresh.values.push_back(parameter.initial);
+    carry_over(node, fresh, clamped);
+    node.values = std::move(fresh.values);
+    node.code = std::move(fresh.code);
     return 0;
 }
 
@@ -451,6 +481,7 @@ std::string describe(const Scene& before, const Edit& edit) {
                 return fmt::format("delete material {}", name_in(before.materials, e.material));
             },
             [&](const AddLight&) { return std::string("add light"); },
+            [&](const SetCode& e) { return fmt::format("code of {}", node_name(before, e.node)); },
             [&](const RemoveLight& e) { return fmt::format("delete light {}", name_in(before.lights, e.light)); },
         },
         edit);

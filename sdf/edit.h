@@ -76,9 +76,16 @@ struct RemoveLight {
     Id light;
 };
 
+/// Of a custom node: values whose key both codes declare are kept, brought into their range. Refused with all errors,
+/// each with its line, where the text is no distance function.
+struct SetCode {
+    Id node;
+    std::string text;
+};
+
 using Edit =
     std::variant<SetValue, SetName, SetKind, SetLightKind, SetMaterial, InsertNode, RemoveNode, MoveNode, SetDefinition,
-                 MakeDefinition, MakeIndependent, AddMaterial, RemoveMaterial, AddLight, RemoveLight>;
+                 MakeDefinition, MakeIndependent, AddMaterial, RemoveMaterial, AddLight, RemoveLight, SetCode>;
 
 struct EditError : std::runtime_error {
     using std::runtime_error::runtime_error;

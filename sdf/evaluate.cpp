@@ -21,13 +21,19 @@ FieldEvaluator::Sample FieldEvaluator::fold(const FieldNode& node, glm::vec3 p, 
     return result;
 }
 
+float FieldEvaluator::custom(const FieldNode& node, glm::vec3 p) {
+    const glm::vec3 bounds = node.values[0], nearest = nearest_custom(p, bounds);
+    const float value = node.code->evaluate(nearest, std::span(node.values).subspan(node.kind->parameters.size()));
+    return custom_distance(value, node.code->lipschitz(), p, nearest, bounds);
+}
+
 FieldEvaluator::Sample FieldEvaluator::evaluate(const FieldNode& node, glm::vec3 p, std::uint32_t inherited) const {
     const KindInfo& kind = *node.kind;
     const glm::vec3 q = node.to_own * (p - node.translate) / node.scale;
     Sample s{empty_distance, node.material == inherited_material ? inherited : node.material, node.id};
     switch (kind.role) {
         case Role::primitive:
-            s.distance = kind.primitive(q, node.values);
+            s.distance = node.code ? custom(node, q) : kind.primitive(q, node.values);
             break;
         case Role::combine:
             s = fold(node, q, inherited);

@@ -32,6 +32,7 @@ private:
     /// `inherited`: the material of nodes in definitions that have none of their own.
     Sample evaluate(const FieldNode& node, glm::vec3 p, std::uint32_t inherited) const;
     Sample fold(const FieldNode& node, glm::vec3 p, std::uint32_t inherited) const;
+    static float custom(const FieldNode& node, glm::vec3 p);
 
     FieldTree tree_;
 };

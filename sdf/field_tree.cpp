@@ -118,8 +118,10 @@ FieldNode prepare(const Node& node, std::uint32_t inherited, Definitions& defini
         if (!is_empty(child, definitions.filled)) part.children.push_back(prepare(child, part.material, definitions));
     if (kind.role == Role::instance) part.definition = definition_index(node.definition, definitions);
 
-    for (std::size_t i = 0; i < kind.parameters.size(); ++i)
-        part.values.push_back(to_code_units(kind.parameters[i], node.values[i]));
+    part.parameters = parameters(node);
+    part.code = node.code;
+    for (std::size_t i = 0; i < part.parameters.size(); ++i)
+        part.values.push_back(to_code_units(part.parameters[i], node.values[i]));
     if (kind.derive) {
         part.values.resize(kind.parameters.size() + kind.derived.size());
         kind.derive(content_extent(part, 0.0f, definitions), part.values,

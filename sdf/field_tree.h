@@ -17,6 +17,7 @@
 // (KindInfo::stretch).
 #pragma once
 
+#include "sdf/custom_code.h"
 #include "sdf/scene.h"
 
 #include <glm/mat3x3.hpp>
@@ -45,10 +46,12 @@ struct FieldNode {
     Box region;              ///< what the node fills in its own frame; stretched content is evaluated within it
     Extent extent;           ///< the same in the parent's frame
     std::vector<FieldNode> children;
-    std::size_t definition = 0;  ///< instances: index in FieldTree::definitions
+    std::size_t definition = 0;                        ///< instances: index in FieldTree::definitions
+    std::vector<Parameter> parameters{};               ///< what the values belong to, but for the derived ones
+    std::shared_ptr<const CustomCode> code = nullptr;  ///< of a custom node
 
     /// How much the node would shorten steps at worst: the Lipschitz constant of its field before it is made safe.
-    float stretch() const { return kind->stretch ? kind->stretch(values) : 1.0f; }
+    float stretch() const { return code ? code->lipschitz() : kind->stretch ? kind->stretch(values) : 1.0f; }
 };
 
 struct FieldTree {

@@ -157,9 +157,9 @@ template <class T, class Use>
 bool use_field(T& object, std::string_view key, Use use) {
     using Plain = std::remove_const_t<T>;
     if constexpr (std::is_same_v<Plain, Node>) {
-        const auto& parameters = info(object.kind).parameters;
-        for (std::size_t i = 0; i < parameters.size(); ++i)
-            if (key == parameters[i].key) return use(parameters[i], object.values[i]), true;
+        const std::vector<Parameter> list = parameters(object);
+        for (std::size_t i = 0; i < list.size(); ++i)
+            if (key == list[i].key) return use(list[i], object.values[i]), true;
         return use_field(object.transform, key, use);
     } else {
         for (const Field<Plain>& f : fields<Plain>()) {
@@ -184,7 +184,7 @@ std::vector<Parameter> parameters(const Scene& scene, ObjectRef ref) {
     std::vector<Parameter> list;
     visit_object(scene, ref, [&]<class T>(const T& object) {
         if constexpr (std::is_same_v<T, Node>) {
-            list = info(object.kind).parameters;
+            list = parameters(object);
             for (const auto& f : fields<Transform>()) list.push_back(f.parameter);
         } else {
             for (const Field<T>& f : fields<T>()) {

@@ -50,6 +50,7 @@ enum class NodeKind {
     ring,
     menger_sponge,
     mandelbulb,
+    custom,
     union_,
     intersect,
     subtract,
@@ -90,7 +91,7 @@ enum class NodeKind {
 
 /// How the generated code uses the kind's function of shapes.glsl or operations.glsl.
 enum class Role {
-    primitive,  ///< float f(vec3 p, parameters...): signed distance, no children
+    primitive,  ///< float f(vec3 p, parameters...): signed distance, no children; of `custom` the user's own code
     combine,    ///< float f(float a, float b, parameters...): folds the children from first to last
     domain,     ///< vec3 f(vec3 p, parameters...), or none: moves the point before the children (a hard union) see it
     repeat,     ///< vec3 f(vec3 p, parameters..., derived..., int cell): as domain, and the least over its cells counts
@@ -123,8 +124,8 @@ struct KindInfo {
     /// Primitives: a profile in the xy plane, the same at every z. Operations: made for such; they see the
     /// cross-section of their children at z = 0, and `exact` is promised for profiles.
     bool flat;
-    std::vector<Parameter> parameters;
-    const char* function;  ///< in shapes.glsl or operations.glsl
+    std::vector<Parameter> parameters;  ///< of `custom` those that every code has; see parameters(Node)
+    const char* function;               ///< in shapes.glsl or operations.glsl; null: none
     /// A second function from there, or null. combine: float f(a, b, parameters...), the fraction of b's material;
     /// domain: float f(d, p, parameters..., derived...), a safe distance; repeat: int f(parameters..., derived...), the
     /// number of cells.
@@ -172,6 +173,10 @@ std::optional<NodeKind> find_kind(std::string_view key);
 /// beyond of operations.glsl: the distance at p from that at the point of its bounds nearest to p; away is their
 /// difference.
 float beyond(float d, glm::vec3 away);
+
+/// Of operations.glsl: where custom code is evaluated for p, and the distance at p from its value there.
+glm::vec3 nearest_custom(glm::vec3 p, glm::vec3 bounds);
+float custom_distance(float value, float lipschitz, glm::vec3 p, glm::vec3 nearest, glm::vec3 bounds);
 
 /// blend_materials of operations.glsl: two material indices and the share of the second in one code.
 std::uint32_t blend_materials(std::uint32_t a, std::uint32_t b, float share_of_b);

@@ -250,6 +250,27 @@ float beyond(float d, vec3 away) {
     return outside > 0.0f ? sqrt(outside + max(d, 0.0f) * max(d, 0.0f)) : d;
 }
 
+// ---- custom code ------------------------------------------------------------------------------------------------------
+// The code counts within a box around the origin, and what it shows is cut off there: so its bounds are true whatever it
+// does. Outside, the value at the nearest point of the box counts as with `beyond`.
+
+// The box's half size; 0 has no end along that axis.
+vec3 custom_reach(vec3 bounds) {
+    return bounds + 1e9f * (1.0f - step(1e-9f, bounds));
+}
+
+vec3 nearest_custom(vec3 p, vec3 bounds) {
+    return clamp(p, -custom_reach(bounds), custom_reach(bounds));
+}
+
+// From the value of the code at the point nearest_custom of p. What is no number counts as no shape.
+float custom_distance(float value, float lipschitz, vec3 p, vec3 nearest, vec3 bounds) {
+    float safe = value / lipschitz;
+    safe = safe < 1e9f ? max(safe, -1e9f) : 1e9f;
+    vec3 inside = abs(nearest) - custom_reach(bounds);
+    return beyond(max(safe, max(inside.x, max(inside.y, inside.z))), p - nearest);
+}
+
 // Turns the content about the y axis, rate radians for each metre of height.
 vec3 twist(vec3 p, float rate) {
     float c = cos(rate * p.y);

@@ -284,6 +284,14 @@ void add_primitives(std::vector<KindInfo>& t) {
             return within(glm::vec3(v[0].x), {true, !is_even(v[1].x), !is_even(v[1].x)});
         },
         FUNCTION(primitive, mandelbulb)));
+    t.push_back(make_primitive(
+        K::custom, "custom", "Custom code", "A distance function of your own, in GLSL; its uniforms become sliders",
+        false, {lengths("bounds", "Half size of the box that holds it; 0 has no end along that axis", 1.0f)},
+        [](Values v) {
+            const glm::vec3 half = shapes::custom_reach(v[0]);
+            return Extent{{-half, half}, {}};
+        },
+        nullptr, nullptr));
 }
 
 }  // namespace farfield

@@ -1,5 +1,7 @@
 #include "sdf/scene.h"
 
+#include "sdf/custom_code.h"
+
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
@@ -9,6 +11,9 @@
 #include <utility>
 
 namespace farfield {
+
+std::string_view embedded_shapes(std::string_view name);  // generated from the .glsl files by embed.cmake
+
 namespace {
 
 template <class T>
@@ -134,8 +139,20 @@ Scene::Scene() {
 Node make_node(NodeKind kind) {
     Node node;
     node.kind = kind;
-    for (const Parameter& parameter : info(kind).parameters) node.values.push_back(parameter.initial);
+    if (kind == NodeKind::custom) node.code = default_custom_code();
+    for (const Parameter& parameter : parameters(node)) node.values.push_back(parameter.initial);
     return node;
+}
+
+std::shared_ptr<const CustomCode> default_custom_code() {
+    static const auto code = CustomCode::parse(embedded_shapes("custom_default.glsl")).code;
+    return code;
+}
+
+std::vector<Parameter> parameters(const Node& node) {
+    std::vector<Parameter> list = info(node.kind).parameters;
+    if (node.code) list.insert(list.end(), node.code->parameters().begin(), node.code->parameters().end());
+    return list;
 }
 
 Node make_instance(const Node& definition) {
@@ -186,6 +203,7 @@ std::set<Id> filled_definitions(const Scene& scene) {
 }
 
 bool is_empty(const Node& node, const std::set<Id>& filled_definitions) {
+    if (node.kind == NodeKind::custom) return !node.code;
     if (node.kind == NodeKind::instance) return !filled_definitions.contains(node.definition);
     if (!info(node.kind).takes_children()) return false;
     const auto is_empty_too = [&](const Node& child) { return is_empty(child, filled_definitions); };

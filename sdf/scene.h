@@ -8,12 +8,15 @@
 #include <glm/vec3.hpp>
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 namespace farfield {
+
+class CustomCode;
 
 /// Identifies a node, material or light for the life of the document; never reused, 0 means none. Not saved.
 using Id = std::uint32_t;
@@ -32,11 +35,12 @@ struct Node {
     Id id = 0;
     NodeKind kind = NodeKind::union_;
     std::string name;               ///< unique in the scene when not empty
-    std::vector<glm::vec3> values;  ///< one for each parameter of the kind, in the table's order
+    std::vector<glm::vec3> values;  ///< one for each of its parameters, in their order
     Transform transform;
     Id material = 0;    ///< 0: that of the nearest ancestor that has one, or the scene's first material
     Id definition = 0;  ///< instances: what they show, one of Scene::definitions
     std::vector<Node> children;
+    std::shared_ptr<const CustomCode> code;  ///< of a custom node; without it, it shows nothing
 };
 
 /// Lambert reflection plus a normalised Phong highlight on direct light.
@@ -104,6 +108,12 @@ struct Scene {
 Node make_node(NodeKind kind);
 Node make_instance(const Node& definition);
 
+/// The code of new custom nodes, which shows how it is done.
+std::shared_ptr<const CustomCode> default_custom_code();
+
+/// Those of its kind, in the table's order, and then those that its code declares. They refer to texts of the code.
+std::vector<Parameter> parameters(const Node& node);
+
 /// In the tree and in the definitions.
 const Node* find_node(const Scene& scene, Id id);
 Node* find_node(Scene& scene, Id id);
@@ -122,7 +132,8 @@ std::string display_name(const Scene& scene, const Node& node);
 /// Index in scene.materials of material `id`; `inherited` for 0 and unknown ids.
 std::uint32_t material_index(const Scene& scene, Id id, std::uint32_t inherited);
 
-/// Whether the node adds no shape: a group without shapes below it, a subtraction from such, an instance of such.
+/// Whether the node adds no shape: a group without shapes below it, a subtraction from such, an instance of such,
+/// custom without code.
 bool is_empty(const Scene& scene, const Node& node);
 bool is_empty(const Node& node, const std::set<Id>& filled_definitions);
 std::set<Id> filled_definitions(const Scene& scene);  ///< those that are not empty

@@ -24,8 +24,12 @@ inline constexpr const char* name = "name";
 inline constexpr const char* of = "of";  ///< of an instance: the name of its definition
 inline constexpr const char* material = "material";
 inline constexpr const char* children = "children";
+inline constexpr const char* code = "code";  ///< of a custom node
 
 /// A file beyond this is refused unread: some fifty thousand nodes, far more than any program can be generated from.
 inline constexpr std::size_t largest_file = 8'000'000;
+
+/// Different texts of custom code in one file: each is compiled to be checked, which takes some milliseconds.
+inline constexpr std::size_t most_codes = 256;
 
 }  // namespace farfield::format

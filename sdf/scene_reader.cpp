@@ -1,4 +1,5 @@
 // Scene from text. What a scene file may hold is told by node_kinds and fields; here is only how the tables meet JSON.
+#include "sdf/custom_code.h"
 #include "sdf/fields.h"
 #include "sdf/located_json.h"
 #include "sdf/scene_format.h"
@@ -280,23 +281,62 @@ private:
                              kind.key));
         Keys keys{format::kind, format::name, format::material};
         if (kind.role == Role::instance) keys.push_back(format::of);
-        for (const Parameter& parameter : kind.parameters) keys.push_back(parameter.key);
+        Node node = make_node(kind.kind);
+        if (kind.kind == NodeKind::custom) {
+            keys.push_back(format::code);
+            if (const Json* code = json.find(format::code)) read_code(*code, {&path, format::code}, node);
+        }
+        const std::vector<Parameter> list = parameters(node);
+        for (const Parameter& parameter : list) keys.push_back(parameter.key);
         add_keys<Transform>(keys, always);
         if (kind.takes_children()) keys.push_back(format::children);
         check_keys(object, path, keys);
 
-        Node node = make_node(kind.kind);
         node.id = scene_.new_id();
         node.name = read_node_name(json, path);
         node.material = read_material_reference(json, path);
         if (kind.role == Role::instance) node.definition = read_definition_reference(json, path);
-        for (size_t i = 0; i < kind.parameters.size(); ++i)
-            if (const Json* value = json.find(kind.parameters[i].key))
-                node.values[i] = read_value(*value, kind.parameters[i], {&path, kind.parameters[i].key});
+        for (size_t i = 0; i < list.size(); ++i)
+            if (const Json* value = json.find(list[i].key))
+                node.values[i] = read_value(*value, list[i], {&path, list[i].key});
         read_fields(json, path, node.transform, always);
         if (const Json* children = json.find(format::children))
             read_children(*children, {&path, format::children}, node);
         return node;
+    }
+
+    /// Gives the node its code, with the code's values.
+    void read_code(const Json& json, const JsonPath& path, Node& node) {
+        const auto* array = json.as<Json::Array>();
+        if (!array || array->empty()) unexpected(path, json, "an array of the lines of GLSL code");
+        std::string text;
+        for (size_t i = 0; i < array->size(); ++i) {
+            const Json& line = (*array)[i];
+            const auto* characters = line.as<std::string>();
+            const JsonPath here{&path, {}, static_cast<int>(i)};
+            if (!characters) unexpected(here, line, "a line of GLSL code as text");
+            if (characters->find('\n') != characters->npos)
+                fail(here, line.line, "found a text with a line break, expected one for each line of code");
+            if (i > 0) text += '\n';
+            text += *characters;
+        }
+        auto& code = codes_[text];
+        if (!code) {
+            if (codes_.size() > format::most_codes)
+                fail(path, json.line,
+                     fmt::format("is one code too many, expected at most {} different ones", format::most_codes));
+            const CustomCode::Parsed parsed = CustomCode::parse(text);
+            if (!parsed.code) {
+                const CodeError& error = parsed.errors.front();
+                const size_t at = std::min(static_cast<size_t>(error.line), array->size()) - 1;
+                fail({&path, {}, static_cast<int>(at)}, (*array)[at].line,
+                     fmt::format("line {} of the code: {}", error.line, error.message));
+            }
+            code = parsed.code;
+        }
+        node.code = code;
+        node.values.resize(info(node.kind).parameters.size());
+        for (const Parameter& parameter : code->parameters()) node.values.push_back(parameter.initial);
     }
 
     void read_children(const Json& json, const JsonPath& path, Node& node) {
@@ -356,6 +396,7 @@ private:
     const std::string& file_;
     Scene scene_;
     std::unordered_map<std::string, Id> material_ids_;
+    std::unordered_map<std::string, std::shared_ptr<const CustomCode>> codes_;  ///< by their text
     std::unordered_map<std::string, Id> definition_ids_;
     std::vector<std::string> definition_names_;
     std::unordered_map<std::string, int> node_lines_;  ///< names that are taken and where

@@ -101,11 +101,23 @@ Schema node(const KindInfo& kind) {
     for (const Parameter& parameter : kind.parameters) properties[parameter.key] = value(parameter);
     for (const Field<Transform>& field : fields<Transform>()) properties[field.parameter.key] = true;
     if (kind.takes_children()) properties[format::children] = true;
-    if (kind.role != Role::instance) return object(kind.tip, std::move(properties));
-    properties[format::of] = {{"description", "Name of the definition"}, {"type", "string"}};
-    Schema instance = object(kind.tip, std::move(properties));
-    instance["required"] = {format::of};
-    return instance;
+    if (kind.role == Role::instance) {
+        properties[format::of] = {{"description", "Name of the definition"}, {"type", "string"}};
+        Schema instance = object(kind.tip, std::move(properties));
+        instance["required"] = {format::of};
+        return instance;
+    }
+    if (kind.kind != NodeKind::custom) return object(kind.tip, std::move(properties));
+    properties[format::code] = {{"description", "The lines of its GLSL code; without it a ball in waves"},
+                                {"type", "array"},
+                                {"items", {{"type", "string"}, {"pattern", "^[^\\n]*$"}}},
+                                {"minItems", 1}};
+    Schema schema = object(kind.tip, std::move(properties));
+    // What the code declares, in as far as a schema can tell.
+    const Schema numbers{
+        {"type", "array"}, {"items", {{"type", {"number", "boolean"}}}}, {"minItems", 3}, {"maxItems", 3}};
+    schema["additionalProperties"] = {{"anyOf", {{{"type", "number"}}, numbers}}};
+    return schema;
 }
 
 Schema any_node() {

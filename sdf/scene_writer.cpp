@@ -1,4 +1,5 @@
 // Text from scene: one value to a line, defaults left out, always in the order of the tables.
+#include "sdf/custom_code.h"
 #include "sdf/fields.h"
 #include "sdf/scene_format.h"
 
@@ -116,6 +117,17 @@ private:
         if (nothing) text_.resize(before);
     }
 
+    void code(std::string_view text) {
+        begin(format::code, '[');
+        for (;;) {
+            const size_t stop = text.find('\n');
+            line({}, text_of(text.substr(0, stop)));
+            if (stop == text.npos) break;
+            text.remove_prefix(stop + 1);
+        }
+        end(']');
+    }
+
     void node(std::string_view key, const Node& node) {
         const KindInfo& kind = info(node.kind);
         begin(key, '{');
@@ -125,8 +137,9 @@ private:
             line(format::of, text_of(of->second));
         if (const Material* material = find_material(scene_, node.material))
             line(format::material, text_of(material->name));
-        for (size_t i = 0; i < kind.parameters.size(); ++i)
-            value(kind.parameters[i], node.values[i], kind.parameters[i].initial);
+        if (node.code) code(node.code->text());
+        const std::vector<Parameter> list = parameters(node);
+        for (size_t i = 0; i < list.size(); ++i) value(list[i], node.values[i], list[i].initial);
         all_fields(node.transform);
         if (!node.children.empty()) {
             begin(format::children, '[');

@@ -86,6 +86,35 @@ TEST(CommandLine, TheSchemaIsPrinted) {
     EXPECT_EQ(schema.output, read_text(std::filesystem::path(FARFIELD_SCENES) / "schema.json"));
 }
 
+/// A stranger's code is not given to the driver unasked; what comes with the program is.
+TEST(CommandLine, CodeFromElsewhereIsRefused) {
+    const TemporaryFolder folder;
+    const auto file = folder / "foreign.json", picture = folder / "a.png", config = folder / "config";
+    write_text(file,
+               "{\"farfield\": 1, \"root\": {\"kind\": \"union\", \"children\": [{\"kind\": \"custom\", \"name\": "
+               "\"blob\", \"code\": [\"float sdf(vec3 p) { return length(p) - 0.125; }\"]}, {\"kind\": \"custom\", "
+               "\"code\": [\"float sdf(vec3 p) { return 1.0; }\"]}, {\"kind\": \"custom\"}]}}");
+    const std::string before = fmt::format("export XDG_CONFIG_HOME='{}';", config.string());
+    const auto run = [&](const std::string& arguments) { return farfield_command(arguments, before.c_str()); };
+    const std::string render =
+        fmt::format("render '{}' -o '{}' --size 16x16 --frames 1 ", file.string(), picture.string());
+    for (const std::string& command :
+         {render, fmt::format("glsl '{}'", file.string()), fmt::format("bench '{}' --size 16x16", file.string())}) {
+        const Outcome refused = run(command);
+        EXPECT_EQ(refused.status, 2) << command;
+        for (const char* word : {"foreign.json: root/children[0] \"blob\"", "one other node", "--trust-code"})
+            EXPECT_NE(refused.output.find(word), std::string::npos) << refused.output;
+    }
+    EXPECT_FALSE(std::filesystem::exists(picture));
+    EXPECT_EQ(run(fmt::format("check '{}'", file.string())).status, 0);  // gives nothing to the driver
+    EXPECT_EQ(run(render + "--trust-code").status, 0);
+    EXPECT_TRUE(std::filesystem::exists(picture));
+    EXPECT_EQ(run(render).status, 2) << "the option counts for one command";
+    EXPECT_EQ(run("glsl " + scene("gyroid")).status, 0);
+    EXPECT_NE(farfield_command("--help").output.find("--trust-code"), std::string::npos);
+    EXPECT_NE(farfield_command("render --help").output.find("--trust-code"), std::string::npos);
+}
+
 TEST(CommandLine, BenchReportsPassesAndEvaluations) {
     const Outcome bench = farfield_command("bench " + scene("cornell") + " --size 32x32 --frames 1 --live");
     EXPECT_EQ(bench.status, 0) << bench.output;

@@ -383,9 +383,75 @@ def show_error(editor, bad):
     editor.wait("no message", lambda r: r["error"] == "")
 
 
+def custom_code(editor, foreign, trusted):
+    """Code from elsewhere is asked about and can wait; code that is written here shows its errors, its shape and values."""
+    foreign.write_text(json.dumps({"farfield": 1, "sky": {"zenith": [1, 1, 1]}, "root": {"kind": "union", "children": [
+        {"kind": "custom", "name": "blob", "code": ["float sdf(vec3 p) {", "    return length(p) - 0.75;", "}"]}]}}))
+
+    def open_foreign():
+        editor.wait("no dialog", lambda r: "foreign/cancel" not in r["controls"])
+        editor.key("ctrl+o")
+        editor.place("dialog/path")
+        editor.enter(str(foreign))
+        editor.place("foreign/cancel")
+
+    before = editor.report()
+    open_foreign()
+    editor.click("foreign/cancel")
+    report = editor.wait("no dialog", lambda r: "foreign/cancel" not in r["controls"])
+    check(report["file"] == before["file"] and report["revision"] == before["revision"], "Cancel leaves the scene")
+    open_foreign()
+    editor.click("foreign/without")
+    editor.wait("the file", lambda r: r["file"] == str(foreign))
+    editor.settled()
+    editor.click("tree/blob")
+    editor.place("inspector/run_code")
+    check(not trusted.exists(), "nothing was accepted so far")
+    compiles = editor.report()["structural_compiles"]
+
+    def run():
+        editor.click("inspector/run_code")
+        editor.wait("its program", lambda r: r["structural_compiles"] > compiles)
+        editor.settled()
+
+    check_seen(editor, run, "the shape of the code")
+    check("inspector/run_code" not in editor.report()["controls"], "what runs needs no button")
+    check(len(trusted.read_text().split()) == 1, "what was accepted is remembered")
+
+    editor.click("inspector/edit_code")
+    revision = editor.report()["revision"]
+
+    def write(code):
+        editor.click("code_editor/text")
+        editor.wait("a text field", lambda r: r["typing"])
+        editor.key("ctrl+a")
+        editor.type(code)
+
+    write("float sdf(vec3 p) { return radus; }")
+    editor.place("code_editor/error/1")
+    editor.key("ctrl+Return")
+    editor.settled()
+    check(editor.report()["revision"] == revision, "code with errors changes nothing")
+    write("uniform float size = 0.4; /* [0, 1] m */ float sdf(vec3 p) { return length(p) - size; }")
+    editor.wait("no error", lambda r: "code_editor/error/1" not in r["controls"])
+    editor.key("ctrl+Return")
+    changed = editor.wait("new code", lambda r: r["revision"] > revision and "inspector/size" in r["controls"])
+    check(changed["typing"], "one can go on writing")
+    editor.key("Escape")
+    editor.wait("no text", lambda r: not r["typing"])
+    check(len(trusted.read_text().split()) == 2, "what was written here is remembered")
+    editor.drag("inspector/size", to=0.9)
+    editor.wait("a dragged value", lambda r: r["revision"] > changed["revision"])
+    editor.key("ctrl+z", "ctrl+z")
+    editor.wait("the old code", lambda r: r["saved"] and "inspector/size" not in r["controls"])
+    editor.key("F4")
+    editor.wait("no code", lambda r: "code" not in r)
+
+
 def main():
     program, bundled = sys.argv[1], Path(sys.argv[2])
     with tempfile.TemporaryDirectory(prefix="farfield-test-") as folder, Display() as display:
+        display.environment["XDG_CONFIG_HOME"] = folder
         scene = Path(folder) / "scene.json"
         shutil.copyfile(bundled, scene)
         original = json.loads(scene.read_text())
@@ -405,9 +471,10 @@ def main():
                 lambda: reload(editor, scene, Path(folder) / "copy.json"),
                 lambda: define_and_free(editor),
                 lambda: show_error(editor, Path(folder) / "bad.json"),
+                lambda: custom_code(editor, Path(folder) / "foreign.json", Path(folder) / "farfield" / "trusted"),
             ]
             names = ["start", "read the code", "click shapes", "type without traces", "add a sphere under a union", "type values", "drag a radius", "sample count",
-                     "blur levels", "AO radius", "save", "reload", "define and free", "an error in a file"]
+                     "blur levels", "AO radius", "save", "reload", "define and free", "an error in a file", "custom code"]
             for name, step in zip(names, steps):
                 print(f"{name} ...", flush=True)
                 try:

@@ -95,6 +95,29 @@ TEST_F(FieldOnGpu, AgreesWithTheCpuOnEveryKind) {
     }
 }
 
+/// Several nodes with the same code and other values, names that meet the library's, and what is no number.
+TEST_F(FieldOnGpu, AgreesWithTheCpuOnCustomCode) {
+    const char* const texts[] = {
+        "uniform float radius = 0.5; // [0, 1]\nconst float count = 0.0;\n"
+        "float sphere(vec3 p) { return length(p) - radius; }\nfloat sdf(vec3 p) { return sphere(p); }",
+        "uniform bvec3 axes = bvec3(true, false, true);\nuniform int n = 3; // [1, 5]\nconst float lipschitz = 2.0;\n"
+        "float sdf(vec3 p) { for (int i = 0; i < n; ++i) p = mix(p, abs(p) - 0.2, axes); return box(p, vec3(0.2)); }",
+        "float sdf(vec3 p) { return p.x > 0.2 ? sqrt(-1.0 - p.x) : p.y > 0.2 ? 1.0 / max(-p.x, 0.0) : length(p) - 0.3; "
+        "}"};
+    Scene scene;
+    for (int i = 0; i < 6; ++i) {
+        const Id id = apply(scene, InsertNode{scene.root.id, -1, make_node(NodeKind::custom)});
+        const ObjectRef node{ObjectType::node, id};
+        apply(scene, SetCode{id, texts[i % 3]});
+        if (i % 2) apply(scene, SetName{node, i == 1 ? "torus" : i == 3 ? "surface" : "place"});
+        apply(scene, SetValue{node, "translate", glm::vec3(2.0f * static_cast<float>(i) - 5.0f, 0.0f, 0.5f)});
+        apply(scene, SetValue{node, "bounds", i < 3 ? glm::vec3(1.0f) : glm::vec3(0.25f, 0.0f, 0.5f)});
+        if (i % 3 == 0) apply(scene, SetValue{node, "radius", glm::vec3(0.2f + 0.1f * static_cast<float>(i))});
+        if (i % 3 == 1) apply(scene, SetValue{node, "n", glm::vec3(static_cast<float>(i))});
+    }
+    expect_agreement(scene, 1, "custom code");
+}
+
 TEST_F(FieldOnGpu, AgreesWithTheCpuOnRandomScenes) {
     for (unsigned seed = 0; seed < 8; ++seed)
         expect_agreement(random_scene(seed, 12), seed, fmt::format("random scene {}", seed));

@@ -62,8 +62,8 @@ glm::vec3 random_parameter(const Parameter& parameter, Spread spread, std::mt199
 Scene scene_of(const KindInfo& kind, Spread spread, std::mt19937& random) {
     Scene scene;
     Node node = make_node(kind.kind);
-    for (std::size_t i = 0; i < kind.parameters.size(); ++i)
-        node.values[i] = random_parameter(kind.parameters[i], spread, random);
+    const std::vector<Parameter> list = parameters(node);
+    for (std::size_t i = 0; i < list.size(); ++i) node.values[i] = random_parameter(list[i], spread, random);
     if (kind.takes_children()) {
         Node box = make_node(NodeKind::box), ball = make_node(NodeKind::sphere);
         box.values[0] = {0.25f, 0.2f, 0.15f};
@@ -84,7 +84,7 @@ std::string parameters_text(const Scene& scene) {
     const Node& node = scene.root.children[0];
     std::string text;
     for (std::size_t i = 0; i < node.values.size(); ++i)
-        text += fmt::format("{} ({}, {}, {}) ", info(node.kind).parameters[i].key, node.values[i].x, node.values[i].y,
+        text += fmt::format("{} ({}, {}, {}) ", parameters(node)[i].key, node.values[i].x, node.values[i].y,
                             node.values[i].z);
     return text;
 }
@@ -311,8 +311,9 @@ TEST_P(EveryKind, AnswersFiniteNumbersAtTheLimitsOfItsParameters) {
     for (int round = 0; round < 400; ++round) {
         Scene scene = scene_of(kind(), Spread::none, random_);
         Node& node = scene.root.children[0];
-        for (std::size_t k = 0; k < kind().parameters.size(); ++k) {
-            const Parameter& parameter = kind().parameters[k];
+        const std::vector<Parameter> list = parameters(node);
+        for (std::size_t k = 0; k < list.size(); ++k) {
+            const Parameter& parameter = list[k];
             for (int i = 0; i < parameter.components(); ++i) {
                 const float choices[] = {
                     parameter.minimum, parameter.maximum, 0.0f, 1e-6f, -1e-30f, -0.5f, parameter.initial[i], 1e3f};

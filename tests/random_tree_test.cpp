@@ -22,14 +22,17 @@ glm::vec3 random_point(std::mt19937& random, float half) {
 
 enum class Repeated { primitives, anything };
 
-/// Operations down to `depth` levels, primitives below; often two children where the kind combines, else one.
+/// Operations down to `depth` levels, primitives of the table below (custom code is any of them); often two children
+/// where the kind combines, else one.
 Node random_tree(int depth, Repeated repeated, std::mt19937& random) {
     std::vector<NodeKind> kinds;
     for (const KindInfo& kind : node_kinds())
-        if (kind.takes_children() == (depth > 1) && kind.role != Role::instance) kinds.push_back(kind.kind);
+        if (kind.takes_children() == (depth > 1) && kind.role != Role::instance && kind.kind != NodeKind::custom)
+            kinds.push_back(kind.kind);
     Node node = make_node(kinds[random() % kinds.size()]);
     const KindInfo& kind = info(node.kind);
-    for (std::size_t i = 0; i < node.values.size(); ++i) node.values[i] = random_value(kind.parameters[i], random);
+    const std::vector<Parameter> list = parameters(node);
+    for (std::size_t i = 0; i < node.values.size(); ++i) node.values[i] = random_value(list[i], random);
     node.transform.translate = random_point(random, 0.5f);
     node.transform.rotate = random() % 3 ? random_point(random, 180.0f) : glm::vec3(0.0f);
     node.transform.scale = random() % 3 ? 1.0f : uniform(random, 0.3f, 2.0f);

@@ -152,6 +152,12 @@ TEST(SceneFuzz, LargeFilesEndSoon) {
     std::string materials = R"({"farfield":1,"root":{"kind":"union"},"materials":{"m":{})";
     for (int i = 0; i < 4'000; ++i) materials += fmt::format(",\"{}\":{{}}", i);
     EXPECT_TRUE(is_scene(materials + "}}"));
+    std::string codes;
+    for (int i = 0; i < 256; ++i)
+        codes += fmt::format(
+            ",{{\"kind\":\"custom\",\"code\":[\"float sdf(vec3 p) {{ float d = {}.0;\"{},\"return d; }}\"]}}", i,
+            repeated(",\"d += length(2.0 * p) - sin(p.x) * cos(p.y);\"", 400));
+    EXPECT_TRUE(is_scene(head + R"({"kind":"plane"})" + codes + "]}}"));
     EXPECT_FALSE(is_scene("{\"" + std::string(8'000'000, 'x')));
     EXPECT_FALSE(is_scene("{\"a\":" + std::string(1'000'000, '9') + "}"));
 }

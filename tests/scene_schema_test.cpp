@@ -233,7 +233,7 @@ TEST(SceneSchema, RefusesWrongStructure) {
     add("/root/children/0", 1);
     for (const KindInfo& kind : node_kinds()) {
         Json scene = scene_with({{"kind", kind.key}, {"not_its_own", 1}});
-        texts.push_back(scene.dump());
+        if (kind.kind != NodeKind::custom) texts.push_back(scene.dump());  // what code declares no schema can know
         if (kind.kind != NodeKind::union_) add("/root/kind", kind.key);
         if (kind.takes_children()) continue;
         scene = scene_with({{"kind", kind.key}, {"children", Json::array()}});

@@ -1,5 +1,6 @@
 #include "tests/test_support.h"
 
+#include "sdf/custom_code.h"
 #include "sdf/edit.h"
 
 #include <fmt/format.h>
@@ -118,6 +119,18 @@ glm::vec3 random_value(const Parameter& parameter, std::mt19937& random) {
     return clamped(parameter, value);
 }
 
+std::string random_code(std::mt19937& random) {
+    static const char* const texts[] = {
+        "uniform float radius = 0.5;  // [0.1, 0.6] m Radius\nfloat sdf(vec3 p) { return length(p) - radius; }",
+        "// Größe\nuniform vec3 size = vec3(0.4, 0.3, 0.2); // [0, 1] m\nuniform int radius = 2; // [0, 9]\n"
+        "uniform float turn = 30.0; // [0, 90] °\nconst float lipschitz = 1.5;\n\nfloat sdf(vec3 p) {\n\t"
+        "for (int i = 0; i < radius; ++i) p.x = abs(p.x) - 0.1 * cos(turn);\n    return box(p, size);\n}\n",
+        "uniform bvec3 axes = bvec3(true, false, true);\nuniform ivec3 counts = ivec3(1, 2, 3); // [0, 4]\n"
+        "uniform bool on = true;\n"
+        "float sdf(vec3 p) { return sphere(mix(p, abs(p), axes), on ? 0.5 : 0.1 * float(counts.x)); }"};
+    return texts[random() % std::size(texts)];
+}
+
 Scene random_scene(unsigned seed, int nodes) {
     std::mt19937 random(seed);
     Scene scene;
@@ -147,11 +160,15 @@ Scene random_scene(unsigned seed, int nodes) {
         if (node.kind == NodeKind::instance)
             node.definition = scene.definitions[static_cast<size_t>(below(random, scene.definitions.size()))].id;
         node.id = scene.new_id();
+        if (node.kind == NodeKind::custom && below(random, 3) != 0) {
+            node.code = CustomCode::parse(random_code(random)).code;
+            node.values.clear();
+            for (const Parameter& parameter : parameters(node)) node.values.push_back(parameter.initial);
+        }
         if (below(random, 2)) node.name = fmt::format("näme {}", number);
         if (below(random, 3) == 0)
             node.material = scene.materials[static_cast<size_t>(below(random, scene.materials.size()))].id;
-        for (size_t k = 0; k < node.values.size(); ++k)
-            node.values[k] = random_value(info(node.kind).parameters[k], random);
+        for (size_t k = 0; k < node.values.size(); ++k) node.values[k] = random_value(parameters(node)[k], random);
         randomise(node.transform, random);
         return node;
     };
@@ -259,8 +276,14 @@ Edit random_edit(const Scene& scene, std::mt19937& random) {
             return MakeDefinition{any_node()};
         case 13:
             return MakeIndependent{pick(3) ? any_instance() : any_node()};
-        default:
+        case 14:
             return RemoveLight{any_light()};
+        default: {
+            std::vector<Id> custom{any_node()};
+            for (const Id id : all_ids(scene.root))
+                if (find_node(scene, id)->kind == NodeKind::custom) custom.push_back(id);
+            return SetCode{custom[pick(custom.size())], pick(5) ? random_code(random) : "float sdf(vec3 p) {\n x; }"};
+        }
     }
 }
 

@@ -48,6 +48,9 @@ std::vector<Id> all_ids(const Scene& scene);
 /// A value that `parameter` takes, near its default.
 glm::vec3 random_value(const Parameter& parameter, std::mt19937& random);
 
+/// One of a few codes with parameters of every type; some keys occur in several, with other types and ranges.
+std::string random_code(std::mt19937& random);
+
 /// Any edit, sensible or not: of every kind, with ids that exist and ids that do not, names that are free and names
 /// that are taken, values in range and out of it.
 Edit random_edit(const Scene& scene, std::mt19937& random);

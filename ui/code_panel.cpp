@@ -1,6 +1,6 @@
 #include "ui/code_panel.h"
 
-#include "ui/glsl_tokens.h"
+#include "ui/glsl_text.h"
 
 #include <fmt/format.h>
 #include <imgui_internal.h>
@@ -17,29 +17,7 @@ namespace {
 constexpr double most_of_the_time = 0.1;  // at most this part of it goes into writing code while a hand moves something
 constexpr double shown_as_copied = 1.2;   // seconds
 
-ImU32 color_of(const Ui& ui, GlslToken token) {
-    switch (token) {
-        case GlslToken::keyword:
-            return IM_COL32(188, 154, 226, 255);
-        case GlslToken::type:
-            return IM_COL32(126, 172, 232, 255);
-        case GlslToken::number:
-            return IM_COL32(152, 204, 156, 255);
-        case GlslToken::function:
-            return IM_COL32(228, 212, 160, 255);
-        case GlslToken::comment:
-            return IM_COL32(118, 127, 140, 255);
-        case GlslToken::plain:
-            break;
-    }
-    return ui.theme.text;
-}
-
 bool continues(char c) { return (static_cast<unsigned char>(c) & 0xc0) == 0x80; }
-
-std::size_t characters(std::string_view text) {
-    return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char c) { return !continues(c); }));
-}
 
 bool is_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; }
 
@@ -65,8 +43,18 @@ bool strip_button(Ui& ui, const char* label, const char* name, float width, bool
 
 }  // namespace
 
-void CodePanel::draw(Ui& ui, const Scene& scene, std::uint64_t revision) {
-    title(ui);
+Edits CodePanel::draw(Ui& ui, const Scene& scene, std::uint64_t revision) {
+    const Node* selected = ui.selection.type == ObjectType::node ? find_node(scene, ui.selection.id) : nullptr;
+    const Node* custom = selected && selected->code ? selected : nullptr;
+    const bool editing = custom && ui.edit_code;
+    bool compile = false, revert = false;
+    title(ui, custom, editing, compile, revert);
+    if (editing) {
+        ImGui::PushFont(ui.theme.mono);
+        const Edits edits = editor_.draw(ui, *custom, compile, revert);
+        ImGui::PopFont();
+        return edits;
+    }
     refresh(scene, revision);
     mark(ui, scene);
     ImGui::PushFont(ui.theme.mono);
@@ -76,6 +64,7 @@ void CodePanel::draw(Ui& ui, const Scene& scene, std::uint64_t revision) {
     text(ui, scene);
     ImGui::EndChild();
     ImGui::PopFont();
+    return {};
 }
 
 CodePanel::Lines CodePanel::lines() const {
@@ -85,12 +74,35 @@ CodePanel::Lines CodePanel::lines() const {
     return lines;
 }
 
-void CodePanel::title(Ui& ui) {
+void CodePanel::title(Ui& ui, const Node* custom, bool editing, bool& compile, bool& revert) {
     panel_title(ui, "Code");
     const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
     const ImVec2 below = ImGui::GetCursorScreenPos();
     const float y = low.y + ui.theme.px(3.0f);
     float right = high.x - ui.theme.px(6.0f);
+    if (custom) {
+        // Which of the two codes: tabs beside the title.
+        float end = low.x + ui.theme.px(60.0f) + ui.theme.px(66.0f + 4.0f + 66.0f);
+        if (strip_button(ui, "Node", "node", ui.theme.px(66.0f), editing, y, end,
+                         "The code of the selected node, to be written", ""))
+            ui.edit_code = true;
+        if (strip_button(ui, "Scene", "scene", ui.theme.px(66.0f), !editing, y, end,
+                         "The code that the whole scene comes to", ""))
+            ui.edit_code = false;
+    }
+    if (editing) {
+        const bool changed = editor_.is_changed(*custom), stopped = is_stopped(ui, *custom);
+        ImGui::BeginDisabled((!changed && !stopped) || editor_.has_errors(*custom));
+        compile = strip_button(ui, stopped && !changed ? "Run" : "Compile", "compile", ui.theme.px(74.0f), changed, y,
+                               right, "Shows the shape that the code describes", "Ctrl+Enter");
+        ImGui::EndDisabled();
+        ImGui::BeginDisabled(!changed);
+        revert = strip_button(ui, "Revert", "revert", ui.theme.px(62.0f), false, y, right,
+                              "Back to the code that is shown", "");
+        ImGui::EndDisabled();
+        ImGui::SetCursorScreenPos(below);
+        return;
+    }
     const char* copy_label = ImGui::GetTime() - copied_ < shown_as_copied ? "Copied" : "Copy";
     if (strip_button(ui, copy_label, "copy", ui.theme.px(62.0f), false, y, right,
                      "Copies the selected text, or all of it",
@@ -126,8 +138,8 @@ void CodePanel::refresh(const Scene& scene, std::uint64_t revision) {
         starts_ = {0};
         longest_ = 0;
         for (std::size_t at; (at = code_.text.find('\n', starts_.back())) != std::string::npos;) {
-            longest_ = std::max(longest_,
-                                characters(std::string_view(code_.text).substr(starts_.back(), at - starts_.back())));
+            longest_ =
+                std::max(longest_, cells_of(std::string_view(code_.text).substr(starts_.back(), at - starts_.back())));
             starts_.push_back(at + 1);
         }
     }
@@ -188,14 +200,7 @@ void CodePanel::copy(std::string text) {
 }
 
 void CodePanel::draw_line(const Ui& ui, std::size_t line, ImVec2 at, float cell) const {
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const std::string_view text = line_text(line);
-    const std::vector<GlslRun> runs = glsl_runs(text);
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-        const std::size_t end = i + 1 < runs.size() ? runs[i + 1].start : text.size();
-        const float x = at.x + cell * static_cast<float>(characters(text.substr(0, runs[i].start)));
-        draw.AddText({x, at.y}, color_of(ui, runs[i].token), text.data() + runs[i].start, text.data() + end);
-    }
+    draw_glsl(ui, *ImGui::GetWindowDrawList(), line_text(line), at, cell);
 }
 
 void CodePanel::select_text(Ui& ui, Place at) {
@@ -301,7 +306,7 @@ void CodePanel::text(Ui& ui, const Scene& scene) {
         if (from != to && i >= from.line && i <= to.line) {
             const std::string_view text = line_text(i);
             const auto x = [&](std::size_t byte) {
-                return origin.x + cell * static_cast<float>(characters(text.substr(0, byte)));
+                return origin.x + cell * static_cast<float>(cells_of(text.substr(0, byte)));
             };
             draw.AddRectFilled({i == from.line ? x(from.byte) : origin.x, row(i)},
                                {i == to.line ? x(to.byte) : x(text.size()) + cell, row(i) + height},

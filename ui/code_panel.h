@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sdf/codegen.h"
+#include "ui/code_editor.h"
 #include "ui/ui.h"
 
 #include <cstdint>
@@ -11,8 +12,9 @@ namespace farfield {
 
 class CodePanel {
 public:
-    /// Fills the current ImGui window. The code is written anew only for another `revision` of the scene.
-    void draw(Ui& ui, const Scene& scene, std::uint64_t revision);
+    /// Fills the current ImGui window. The code is written anew only for another `revision` of the scene. Of a custom
+    /// node its own code can be shown instead, to be written.
+    Edits draw(Ui& ui, const Scene& scene, std::uint64_t revision);
 
     /// Lines, from 1: all of them, those of the selected node, and those of what is in it.
     struct Lines {
@@ -21,6 +23,8 @@ public:
     };
     Lines lines() const;
     Tier tier() const { return tier_; }
+    /// Another document: what was typed for the old one is gone.
+    void forget() { editor_.forget(); }
 
 private:
     enum class Mark : unsigned char { none, inside, selected };
@@ -29,7 +33,8 @@ private:
         auto operator<=>(const Place&) const = default;
     };
 
-    void title(Ui& ui);
+    /// `custom`: the selected node where it has code; `editing`: whether that is shown.
+    void title(Ui& ui, const Node* custom, bool editing, bool& compile, bool& revert);
     void refresh(const Scene& scene, std::uint64_t revision);
     void mark(const Ui& ui, const Scene& scene);
     void text(Ui& ui, const Scene& scene);
@@ -43,6 +48,7 @@ private:
     std::string chosen_text() const;  ///< what is selected as text
     std::string node_text(Id node) const;
 
+    CodeEditor editor_;
     Tier tier_ = Tier::specialised, generated_tier_ = Tier::specialised;
     GeneratedScene code_;
     std::uint64_t revision_ = 0;  ///< of the scene that code_ is of

@@ -5,8 +5,9 @@
 namespace farfield {
 namespace {
 
-constexpr std::string_view keywords[] = {"break", "const", "continue", "else",   "false",  "for",  "if",
-                                         "in",    "inout", "out",      "return", "struct", "true", "while"};
+constexpr std::string_view keywords[] = {"break", "const", "continue", "else",   "false",  "for",
+                                         "if",    "in",    "inout",    "out",    "return", "struct",
+                                         "true",  "while", "uniform",  "switch", "case",   "default"};
 constexpr std::string_view types[] = {"bool", "float", "int",   "ivec2", "ivec3", "ivec4", "mat2", "mat3", "mat4",
                                       "uint", "uvec2", "uvec3", "uvec4", "vec2",  "vec3",  "vec4", "void"};
 

@@ -131,6 +131,26 @@ void delete_button(Ui& ui, const Scene& scene, const char* label, bool enabled, 
     ui.report.item("inspector", "delete");
 }
 
+/// Where the code of a custom node is, and whether it runs.
+void code_rows(Ui& ui, const Node& node) {
+    if (is_stopped(ui, node)) {
+        ImGui::Dummy({0.0f, ui.theme.px(2.0f)});
+        ImGui::PushStyleColor(ImGuiCol_Text, ui.theme.error);
+        ImGui::PushTextWrapPos(0.0f);
+        ImGui::TextUnformatted("This code comes from elsewhere and was not run, so nothing shows.");
+        ImGui::PopTextWrapPos();
+        ImGui::PopStyleColor();
+        if (ImGui::Button("Run the code", {-FLT_MIN, 0.0f})) ui.run = node.code;
+        ui.report.item("inspector", "run_code");
+        tooltip(ui, "Gives it to the graphics driver to compile", "Read it first");
+    }
+    row_label(ui, "Code", false);
+    const bool shown = ui.show_code && ui.edit_code;
+    if (ImGui::Button(shown ? "Hide" : "Edit", {-FLT_MIN, 0.0f})) ui.show_code = ui.edit_code = !shown;
+    ui.report.item("inspector", "edit_code");
+    tooltip(ui, "The GLSL of this node; its uniforms are the values below");
+}
+
 void inspect_node(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
     name_row(ui, ui.inspected, node.name, display_name(scene, node).c_str(), edits);
     kind_row(ui, scene, node, edits);
@@ -141,7 +161,8 @@ void inspect_node(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
         ImGui::TextDisabled("%d %s", count, count == 1 ? "instance" : "instances");
     }
     material_row(ui, scene, node, edits);
-    const std::size_t own = info(node.kind).parameters.size();
+    if (node.code) code_rows(ui, node);
+    const std::size_t own = parameters(node).size();
     if (own > 0) section(ui, "Shape");
     value_rows(ui, "inspector", scene, ui.inspected, edits, 0, own);
     section(ui, "Placement");

@@ -1,6 +1,7 @@
 #include "ui/statistics_panel.h"
 
 #include <fmt/format.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 
@@ -34,7 +35,8 @@ void line(const Ui& ui, const char* label, const std::string& value, bool strong
 
 void statistics_overlay(Ui& ui, const Statistics& s, ImVec2 corner, ImVec2 room) {
     const float width = ui.theme.px(212.0f);
-    if (room.x < width || room.y < ui.theme.px(60.0f)) return;
+    // A question that waits for its answer is not covered.
+    if (room.x < width || room.y < ui.theme.px(60.0f) || ImGui::GetTopMostPopupModal()) return;
     ImGui::SetNextWindowPos({corner.x - width, corner.y});
     ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, room.y});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ui.theme.overlay);

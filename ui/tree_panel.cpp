@@ -77,13 +77,16 @@ private:
         ImDrawList& draw = *ImGui::GetWindowDrawList();
         const ImVec2 text{x + ui_.theme.px(15.0f), middle - ImGui::GetTextLineHeight() * 0.5f};
         draw.PushClipRect(low, high, true);
-        draw.AddText(text, ui_.theme.text, name.c_str());
+        const bool stopped = is_stopped(ui_, node);
+        draw.AddText(text, stopped ? ui_.theme.error : ui_.theme.text, name.c_str());
         // The kind beside a name that does not tell it, where there is room.
         ImFont* font = ui_.theme.small_font;
-        const float width = font->CalcTextSizeA(font->FontSize, 1e6f, 0.0f, kind.label).x;
+        const char* label = stopped ? "not run" : kind.label;
+        const float width = font->CalcTextSizeA(font->FontSize, 1e6f, 0.0f, label).x;
         const float from = high.x - width - ui_.theme.px(8.0f);
-        if (!node.name.empty() && from > text.x + ImGui::CalcTextSize(name.c_str()).x + ui_.theme.px(8.0f))
-            draw.AddText(font, font->FontSize, {from, middle - font->FontSize * 0.5f}, ui_.theme.dim, kind.label);
+        if ((stopped || !node.name.empty()) && from > text.x + ImGui::CalcTextSize(name.c_str()).x + ui_.theme.px(8.0f))
+            draw.AddText(font, font->FontSize, {from, middle - font->FontSize * 0.5f},
+                         stopped ? ui_.theme.error : ui_.theme.dim, label);
         draw.PopClipRect();
     }
 

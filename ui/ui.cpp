@@ -18,6 +18,8 @@ bool exists(const Scene& scene, ObjectRef object) {
     }
 }
 
+bool is_stopped(const Ui& ui, const Node& node) { return node.code && ui.trust && !ui.trust->knows(*node.code); }
+
 std::string label_of(std::string_view key) {
     std::string label(key);
     std::replace(label.begin(), label.end(), '_', ' ');

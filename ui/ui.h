@@ -3,6 +3,7 @@
 #pragma once
 
 #include "renderer/views.h"
+#include "sdf/code_trust.h"
 #include "sdf/edit.h"
 #include "ui/report.h"
 #include "ui/theme.h"
@@ -43,7 +44,14 @@ struct Ui {
     bool focus_name = false;  ///< the inspector puts the keyboard into the name field, once
     std::string name_text;    ///< what the name field holds while someone types
     NumberEntry number;
+    const CodeTrust* trust = nullptr;       ///< which code may run; null: all
+    std::shared_ptr<const CustomCode> run;  ///< code that the user accepts, for whoever draws the panels
+    bool hand_in = false;                   ///< for a frame: what is being typed is about to be saved
+    bool edit_code = false;  ///< the code panel shows the custom code of the selected node, when there is
 };
+
+/// Whether there is nothing to be seen of the node because its code comes from elsewhere.
+bool is_stopped(const Ui& ui, const Node& node);
 
 /// True while the selection names something that exists in the scene.
 bool exists(const Scene& scene, ObjectRef object);

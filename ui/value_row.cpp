@@ -215,9 +215,17 @@ std::optional<vec3> value_row(Ui& ui, const char* panel, const Parameter& parame
 void value_rows(Ui& ui, const char* panel, const Scene& scene, ObjectRef object, Edits& edits, std::size_t first,
                 std::size_t count) {
     const std::vector<Parameter> list = parameters(scene, object);
-    for (std::size_t i = first; i < list.size() && i - first < count; ++i)
-        if (const auto changed = value_row(ui, panel, list[i], value(scene, object, list[i].key)))
-            edits.push_back(SetValue{object, list[i].key, *changed});
+    const Node* node = object.type == ObjectType::node ? find_node(scene, object.id) : nullptr;
+    const std::size_t own = node ? info(node->kind).parameters.size() : 0;
+    const std::size_t declared = node && node->code ? own + node->code->parameters().size() : own;
+    for (std::size_t i = first; i < list.size() && i - first < count; ++i) {
+        // What the author of custom code gave a range is a slider.
+        const Parameter& p = list[i];
+        const bool slider = i >= own && i < declared && p.minimum > -largest_value && p.maximum < largest_value;
+        const SliderRange range{p.minimum, p.maximum};
+        if (const auto changed = value_row(ui, panel, p, value(scene, object, p.key), slider ? &range : nullptr))
+            edits.push_back(SetValue{object, p.key, *changed});
+    }
 }
 
 }  // namespace farfield
