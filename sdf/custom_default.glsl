@@ -2,7 +2,7 @@
 // Each uniform becomes a slider; the comment after it gives its range, its unit and its tip.
 uniform float radius = 0.5;   // [0, 1] m    Radius of the ball
 uniform float height = 0.04;  // [0, 0.2] m  Height of the waves
-uniform int waves = 5;        // [0, 12]     Waves across the ball
+uniform int waves = 3;        // [0, 12]     Waves across the ball
 
 // How many times faster than 1 the distance may change from place to place; steps are divided by it.
 const float lipschitz = 1.0;
