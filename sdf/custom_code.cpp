@@ -3,8 +3,9 @@
 #include "sdf/custom_compiler.h"
 #include "sdf/fields.h"
 #include "sdf/scene_format.h"
-#include "sdf/sha256.h"
 #include "sdf/shape_library.h"
+
+#include <sha256.h>
 
 #include <fmt/format.h>
 #include <glslang/Include/intermediate.h>
@@ -164,7 +165,11 @@ std::mutex& glslang_mutex() {
 
 }  // namespace
 
-CustomCode::CustomCode(std::string_view text) : text_(text), hash_(sha256(text)) {}
+CustomCode::CustomCode(std::string_view text) : text_(text) {
+    char digits[SHA256_DIGEST_STRING_LENGTH];
+    SHA256Data(reinterpret_cast<const std::uint8_t*>(text.data()), text.size(), digits);
+    hash_ = digits;
+}
 
 CustomCode::Parsed CustomCode::parse(std::string_view text) {
     Parsed parsed;

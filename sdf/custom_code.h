@@ -40,7 +40,7 @@ public:
     static Parsed parse(std::string_view text);
 
     const std::string& text() const { return text_; }  ///< as it was given
-    const std::string& hash() const { return hash_; }  ///< sha256 of the text
+    const std::string& hash() const { return hash_; }  ///< SHA-256 of the text, 64 hexadecimal digits
     /// They refer to texts that live as long as this object.
     std::span<const Parameter> parameters() const { return parameters_; }
     float lipschitz() const { return lipschitz_; }  ///< as declared, or 1

@@ -4,7 +4,6 @@
 #include "sdf/edit.h"
 #include "sdf/evaluate.h"
 #include "sdf/scene_file.h"
-#include "sdf/sha256.h"
 #include "tests/custom_code_samples.h"
 #include "tests/test_support.h"
 
@@ -260,14 +259,6 @@ TEST(CustomNode, TheKeyFollowsTheCodeAndNotTheName) {
     }
 }
 
-TEST(Sha256, GivesTheStandardsExamples) {
-    EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
-    EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-    EXPECT_EQ(sha256("abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq"),
-              "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
-    EXPECT_EQ(sha256(std::string(1'000'000, 'a')), "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
-}
-
 TEST(CodeTrust, KnowsWhatComesWithTheProgramAndNothingElse) {
     const CodeTrust trust;
     EXPECT_TRUE(trust.knows(*default_custom_code()));
@@ -331,6 +322,20 @@ TEST(CodeTrust, UnknownCodeIsLeftOutOfWhatIsShown) {
     trust.accept(*custom.node().code);
     EXPECT_NE(generate(without_unknown_code(custom.scene, trust), Tier::specialised).text.find("sdf_"),
               std::string::npos);
+}
+
+TEST(CodeTrust, AsksForCodeInDefinitionsToo) {
+    Custom custom(ball);
+    const Id instance = apply(custom.scene, MakeDefinition{custom.node().id});
+    ASSERT_EQ(custom.scene.definitions.size(), 1u);
+    EXPECT_NE(generate(custom.scene, Tier::specialised).text.find("sdf_"), std::string::npos);
+    CodeTrust trust;
+    const auto unknown = unknown_code(custom.scene, trust);
+    ASSERT_EQ(unknown.size(), 1u);
+    EXPECT_EQ(unknown[0].path, "definitions[0] \"blob\"");
+    const Scene shown = without_unknown_code(custom.scene, trust);
+    EXPECT_EQ(generate(shown, Tier::specialised).text.find("sdf_"), std::string::npos);
+    EXPECT_TRUE(is_empty(shown, *find_node(shown, instance)));
 }
 
 }  // namespace
