@@ -1,5 +1,7 @@
 #include "app/camera_control.h"
 
+#include "sdf/field_tree.h"
+
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 #include <glm/trigonometric.hpp>
@@ -20,6 +22,20 @@ vec3 rounded(vec3 v) {
     return {std::round(v.x * 1e4f) / 1e4f, std::round(v.y * 1e4f) / 1e4f, std::round(v.z * 1e4f) / 1e4f};
 }
 
+struct Axes {
+    vec3 forward, right, up;
+    float distance;  ///< to the target
+};
+
+Axes axes_of(const Camera& camera) {
+    const vec3 view = camera.target - camera.position;
+    const float length = glm::length(view), distance = std::max(length, nearest_distance);
+    const vec3 forward = length > 0.0f ? view / length : vec3(0.0f, 0.0f, -1.0f);
+    const vec3 side = glm::cross(forward, vec3(0.0f, 1.0f, 0.0f));
+    const vec3 right = glm::length(side) > 1e-6f ? glm::normalize(side) : vec3(1.0f, 0.0f, 0.0f);
+    return {forward, right, glm::cross(right, forward), distance};
+}
+
 }  // namespace
 
 Camera orbited(const Camera& camera, glm::vec2 drag, float height) {
@@ -37,12 +53,7 @@ Camera orbited(const Camera& camera, glm::vec2 drag, float height) {
 }
 
 Camera panned(const Camera& camera, glm::vec2 drag, float height) {
-    const vec3 view = camera.target - camera.position;
-    const float distance = std::max(glm::length(view), nearest_distance);
-    const vec3 forward = view / distance;
-    const vec3 side = glm::cross(forward, vec3(0.0f, 1.0f, 0.0f));
-    const vec3 right = glm::length(side) > 1e-6f ? glm::normalize(side) : vec3(1.0f, 0.0f, 0.0f);
-    const vec3 up = glm::cross(right, forward);
+    const auto [forward, right, up, distance] = axes_of(camera);
     const float scale = 2.0f * distance * std::tan(glm::radians(camera.field_of_view) * 0.5f) / std::max(height, 1.0f);
     const vec3 shift = (-drag.x * right + drag.y * up) * scale;
     Camera moved = camera;
@@ -59,6 +70,50 @@ Camera zoomed(const Camera& camera, float steps) {
     Camera moved = camera;
     moved.position = camera.target + offset * (to / distance);
     return moved;
+}
+
+// At distance D from its middle the corner o of the box is seen at |o . up| / ((D + o . forward) tan(fov / 2)) of half
+// the picture's height above or below the middle; D is the largest at which some corner is just at the fraction wanted.
+Camera framed(const Camera& camera, const Box& box, float aspect) {
+    constexpr float filled = 0.7f, smallest = 0.02f;  // of the picture; metres, to be seen from a sensible distance
+    const Axes axes = axes_of(camera);
+    const vec3 half = glm::max(0.5f * box.size(), vec3(smallest));
+    const float high = filled * std::tan(glm::radians(camera.field_of_view) * 0.5f), wide = high * aspect;
+    float distance = 0.0f;
+    for (int corner = 0; corner < 8; ++corner) {
+        const vec3 o = half * vec3(corner & 1 ? 1.0f : -1.0f, corner & 2 ? 1.0f : -1.0f, corner & 4 ? 1.0f : -1.0f);
+        const float across = std::max(std::abs(glm::dot(o, axes.up)) / high, std::abs(glm::dot(o, axes.right)) / wide);
+        distance = std::max(distance, across - glm::dot(o, axes.forward));
+    }
+    Camera moved = camera;
+    moved.target = box.centre();
+    moved.position = moved.target - distance * axes.forward;
+    return moved;
+}
+
+Box framed_box(const Scene& scene, ObjectRef object) {
+    const vec3 about(0.5f);
+    if (object.type == ObjectType::light)
+        if (const Light* light = find_light(scene, object.id); light && light->kind == LightKind::point)
+            return {light->position - about, light->position + about};
+    const FieldTree tree(scene);
+    std::optional<Box> whole;
+    for (const Id id : {object.type == ObjectType::node ? object.id : scene.root.id, scene.root.id}) {
+        if (const auto box = finite_bounds(tree, id)) return *box;
+        if (!whole) whole = world_bounds(tree, id);
+    }
+    // Without end: where it has one, and as far about the camera's target along the other axes.
+    Box box = whole.value_or(Box{-about, about});
+    float half = 0.0f;
+    for (int axis = 0; axis < 3; ++axis)
+        if (box.is_bounded(axis)) half = std::max(half, 0.5f * box.size()[axis]);
+    if (half == 0.0f) half = 1.0f;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (box.is_bounded(axis)) continue;
+        const float middle = std::clamp(scene.camera.target[axis], box.low[axis], box.high[axis]);
+        box.low[axis] = middle - half, box.high[axis] = middle + half;
+    }
+    return box;
 }
 
 std::vector<Edit> camera_edits(const Camera& from, const Camera& to) {

@@ -132,13 +132,6 @@ int run_schema() {
     return 0;
 }
 
-int run_check(const std::filesystem::path& file) {
-    const Scene scene = load_scene(file);
-    fmt::print("{}: {} nodes, {} materials, {} lights\n", file.string(), count_nodes(scene.root),
-               scene.materials.size(), scene.lights.size());
-    return 0;
-}
-
 int run_bench(const BenchOptions& options) {
     Headless headless(options.scene, options.overrides, options.context);
     const Scene& scene = headless.scene;

@@ -30,6 +30,7 @@ void Document::reset() {
     history_.replace(new_scene());
     file_.clear();
     ++generation_;
+    first_camera_ = scene().camera;
     saved_revision_ = history_.revision();
 }
 
@@ -37,6 +38,7 @@ void Document::open(const std::filesystem::path& file) {
     history_.replace(load_scene(file));
     file_ = file;
     ++generation_;
+    first_camera_ = scene().camera;
     saved_revision_ = history_.revision();
 }
 

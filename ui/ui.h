@@ -5,6 +5,7 @@
 #include "renderer/views.h"
 #include "sdf/edit.h"
 #include "ui/report.h"
+#include "ui/scene_audit.h"
 #include "ui/theme.h"
 
 #include <string>
@@ -26,6 +27,12 @@ struct NumberEntry {
     double click_due = 0.0;  ///< and when that counts
 };
 
+/// What the menu of kinds searches for while it is open.
+struct KindSearch {
+    std::string text;
+    int marked = 0;  ///< which of those found Enter takes
+};
+
 struct Ui {
     Ui(const Theme& look, Report to) : theme(look), report(std::move(to)) {}
 
@@ -43,6 +50,8 @@ struct Ui {
     bool focus_name = false;  ///< the inspector puts the keyboard into the name field, once
     std::string name_text;    ///< what the name field holds while someone types
     NumberEntry number;
+    KindSearch kind_search;
+    SceneAudit audit;
 };
 
 /// True while the selection names something that exists in the scene.
@@ -62,6 +71,9 @@ void tooltip(const Ui& ui, std::string_view text, std::string_view hint = {});
 
 /// The sign of a node's role: disc, two discs, four dots or a ring.
 void draw_icon(const Ui& ui, Role role, ImVec2 centre);
+
+/// The sign that something is likely to be wrong.
+void draw_warning(const Ui& ui, ImVec2 centre);
 
 /// A bar to drag between panels, at `low` and of `extent`; upright when taller than wide. Returns how far it was moved.
 float splitter(Ui& ui, const char* id, ImVec2 low, ImVec2 extent);
