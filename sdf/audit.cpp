@@ -68,7 +68,7 @@ std::string origin(const FieldNode& node) {
                                   : "the nearest of 1-Lipschitz copies";
         default:
             if (kind.explain) return kind.explain(node.values);
-            return kind.domain ? "moves no two points apart: as 1-Lipschitz as its content"
+            return kind.domain ? "moves points no further apart: as 1-Lipschitz as its content"
                                : "shifts the distance: as 1-Lipschitz as its content";
     }
 }
@@ -175,7 +175,7 @@ private:
     }
 
     void by_trying(const FieldNode& node, NodeAudit& entry) {
-        const double most = share_ / (2.0 * cost(node));
+        const double most = share_ / (5.0 * cost(node));
         const int samples = static_cast<int>(std::min<double>(options_.samples, most));
         if (samples < std::min(fewest_samples, options_.samples) || samples == 0 || stopped(options_)) return;
 

@@ -1,7 +1,7 @@
 // How steep a field is, by trying: for points a and b, |f(a) - f(b)| / |a - b| is at most the Lipschitz constant of f,
-// so every pair is a lower bound of it, and a pair above 1 shows that steps are not safe. Half of the pairs are random,
-// half vary the steepest one so far. Of values that are rounded to within r, |f(a) - f(b)| - r counts, so that rounding
-// never looks like a slope.
+// so every pair is a lower bound of it, and a pair above 1 shows that steps are not safe. A third of the pairs are
+// random, a third lie along the gradient at a random point, a third along the one near the steepest place so far. Of
+// values that are rounded to within r, |f(a) - f(b)| - r counts, so that rounding never looks like a slope.
 #pragma once
 
 #include "sdf/box.h"
@@ -38,7 +38,9 @@ public:
     void run(int pairs, const std::atomic<bool>* stop, Field field, Counts counts) {
         for (int i = 0; i < pairs && !not_finite_; ++i) {
             if (i % 64 == 0 && stop && *stop) return;
-            const Pair pair = measured(i % 2 == 0 || steepest_.slope == 0.0f ? anywhere() : nearby(), field);
+            const Pair pair = i % 3 == 0   ? measured(anywhere(), field)
+                              : i % 3 == 1 ? along_gradient(anywhere().a, field)
+                                           : along_gradient(steepest_.a + step() * direction(), field);
             ++tried_;
             if (!std::isfinite(pair.fa) || !std::isfinite(pair.fb)) {
                 not_finite_ = std::isfinite(pair.fa) ? pair.b : pair.a;
@@ -78,13 +80,18 @@ private:
         return {a, a + step() * to};
     }
 
-    Pair nearby() {
-        const float shift = step();
-        const glm::vec3 a = steepest_.a + shift * direction();
-        const glm::vec3 along = (steepest_.b - steepest_.a) * uniform(0.5f, 1.5f);
-        const float turn = uniform(0.0f, 0.5f);
-        const glm::vec3 b = a + along + turn * glm::length(along) * direction();
-        return glm::distance(a, b) > 1e-3f * size_ ? Pair{a, b} : Pair{a, a + 1e-3f * size_ * direction()};
+    /// Forward differences give the direction.
+    template <class Field>
+    Pair along_gradient(glm::vec3 a, Field field) {
+        const float h = size_ * std::exp2(uniform(-10.0f, -3.0f)), here = field(a);
+        glm::vec3 gradient;
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::vec3 b = a;
+            b[axis] += h;
+            gradient[axis] = field(b) - here;
+        }
+        const float length = glm::length(gradient);
+        return measured({a, a + h * (length > 0.0f && std::isfinite(length) ? gradient / length : direction())}, field);
     }
 
     template <class Field>

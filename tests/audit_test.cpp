@@ -54,7 +54,7 @@ TEST(SlopeSearch, FindsASteepPlaceAndNeverMoreThanThereIs) {
     search.run(2000, nullptr, field, everywhere);
     EXPECT_EQ(search.tried(), 2000);
     EXPECT_LE(search.steepest().slope, 3.0f);
-    EXPECT_GT(search.steepest().slope, 2.5f);
+    EXPECT_GT(search.steepest().slope, 2.8f);
     EXPECT_FALSE(search.unsafe()) << "no surface but the origin";
 
     // A surface that is nearer than its distance says.
@@ -104,7 +104,7 @@ TEST(Audit, TellsWhereTheConstantComesFrom) {
         {"sine", "sine waves: 1 + 2 pi times the amplitude 0.1 / the wavelength 0.5"},
         {"ellipsoid", "a bound that is 1-Lipschitz"},
         {"box", "exact distance"},
-        {"mirror", "moves no two points apart: as 1-Lipschitz as its content"},
+        {"mirror", "moves points no further apart: as 1-Lipschitz as its content"},
         {"shell", "shifts the distance: as 1-Lipschitz as its content"},
     };
     AuditOptions numbers;
@@ -130,7 +130,7 @@ TEST(Audit, FindsSlopesCloseToTheConstantWhereThatIsTight) {
                                      "children": [{"kind": "sphere", "radius": 0.5}]})");
     const NodeAudit wave = entry(waves, "waves");
     EXPECT_LE(*wave.unsafe_slope, wave.stretch);
-    EXPECT_GT(*wave.unsafe_slope, 1.1f);
+    EXPECT_GT(*wave.unsafe_slope, 1.3f);  // of 1.79, which waves along three axes at once do not reach
 }
 
 TEST(Audit, EqualSeedsFindTheSame) {

@@ -70,7 +70,7 @@ TEST(KindMenu, FindsKindsByWhatIsTyped) {
         {"sph", "sphere"},
         {"BOX", "box"},
         {"tw", "twist"},
-        
+
         {"round sub", "round_subtract"},
         {"polar", "polar_repeat"},
         {"frame", "box_frame"},

@@ -130,7 +130,7 @@ void slope_row(Ui& ui, const NodeAudit& audit) {
         if (audit.samples == 0)
             ImGui::TextDisabled("not tried: too much is in it");
         else if (audit.unsafe_slope)
-            ImGui::Text("%.3f, before that %.3g", audit.slope, *audit.unsafe_slope);
+            ImGui::Text("%.3g, made safe %.3f", *audit.unsafe_slope, audit.slope);
         else
             ImGui::Text("%.3f", audit.slope);
         ui.report.item("inspector", "slope");
@@ -150,18 +150,6 @@ void field_block(Ui& ui, const Node& node) {
     const NodeAudit* audit = ui.audit.find(node.id);
     if (!audit || (!audit->shows && node.children.empty())) return;
     section(ui, "Field");
-    if (audit->shows) {
-        row_label(ui, "Lipschitz", audit->stretch > 1.0f);
-        ImGui::Text("%.4g", audit->stretch);
-        ui.report.item("inspector", "lipschitz");
-        tooltip(ui, "How steep the field would be without care, per metre; steps are this much shorter",
-                "1: a step as long as the distance is safe as it is");
-        wrapped(ui.theme.dim, audit->origin);
-        row_label(ui, "Bounds", false);
-        ImGui::TextUnformatted(size_text(audit->world).c_str());
-        tooltip(ui, range_text(audit->world));
-        slope_row(ui, *audit);
-    }
     for (const std::string& warning : ui.audit.warnings(node.id)) {
         const ImVec2 start = ImGui::GetCursorScreenPos();
         draw_warning(ui, {start.x + ui.theme.px(7.0f), start.y + ImGui::GetTextLineHeight() * 0.5f});
@@ -170,6 +158,19 @@ void field_block(Ui& ui, const Node& node) {
         ui.report.item("inspector", "warning");
         ImGui::Unindent(ui.theme.px(20.0f));
     }
+    if (!audit->shows) return;
+    row_label(ui, "Bounds", false);
+    ImGui::TextUnformatted(size_text(audit->world).c_str());
+    tooltip(ui, range_text(audit->world));
+    row_label(ui, "Lipschitz", audit->stretch > 1.0f);
+    ImGui::Text("%.4g", audit->stretch);
+    ui.report.item("inspector", "lipschitz");
+    tooltip(ui, "How steep the field would be without care; steps are that much shorter",
+            "1: a step as long as the distance is safe as it is");
+    ImGui::PushFont(ui.theme.small_font);
+    wrapped(ui.theme.dim, audit->origin);
+    ImGui::PopFont();
+    slope_row(ui, *audit);
 }
 
 void inspect_node(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {

@@ -64,7 +64,6 @@ std::optional<NodeKind> group_entries(Ui& ui, const char* panel, const Group& gr
     for (std::size_t column = 0; column < group.columns; ++column) {
         if (column > 0) ImGui::SameLine(0.0f, ui.theme.px(column_gap));
         ImGui::BeginGroup();
-        ImGui::Dummy({width, 0.0f});
         for (std::size_t i = column * rows; i < std::min((column + 1) * rows, kinds.size()); ++i)
             if (entry(ui, panel, *kinds[i], width, false)) chosen = kinds[i]->kind;
         ImGui::EndGroup();
