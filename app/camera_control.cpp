@@ -1,5 +1,6 @@
 #include "app/camera_control.h"
 
+#include "sdf/field_tree.h"
 #include "sdf/pick.h"
 
 #include <glm/geometric.hpp>
@@ -57,6 +58,50 @@ Camera zoomed(const Camera& camera, float steps) {
     Camera moved = camera;
     moved.position = camera.target + offset * (to / distance);
     return moved;
+}
+
+// At distance D from its middle the corner o of the box is seen at |o . up| / ((D + o . forward) tan(fov / 2)) of half
+// the picture's height above or below the middle; D is the largest at which some corner is just at the fraction wanted.
+Camera framed(const Camera& camera, const Box& box, float aspect) {
+    constexpr float filled = 0.7f, smallest = 0.02f;  // of the picture; metres, to be seen from a sensible distance
+    const CameraBasis axes(camera);
+    const vec3 half = glm::max(0.5f * box.size(), vec3(smallest));
+    const float high = filled * axes.half_height, wide = high * aspect;
+    float distance = 0.0f;
+    for (int corner = 0; corner < 8; ++corner) {
+        const vec3 o = half * vec3(corner & 1 ? 1.0f : -1.0f, corner & 2 ? 1.0f : -1.0f, corner & 4 ? 1.0f : -1.0f);
+        const float across = std::max(std::abs(glm::dot(o, axes.up)) / high, std::abs(glm::dot(o, axes.right)) / wide);
+        distance = std::max(distance, across - glm::dot(o, axes.forward));
+    }
+    Camera moved = camera;
+    moved.target = box.centre();
+    moved.position = moved.target - distance * axes.forward;
+    return moved;
+}
+
+Box framed_box(const Scene& scene, ObjectRef object) {
+    const vec3 about(0.5f);
+    if (object.type == ObjectType::light)
+        if (const Light* light = find_light(scene, object.id); light && light->kind == LightKind::point)
+            return {light->position - about, light->position + about};
+    const FieldTree tree(scene);
+    std::optional<Box> whole;
+    for (const Id id : {object.type == ObjectType::node ? object.id : scene.root.id, scene.root.id}) {
+        if (const auto box = finite_bounds(tree, id)) return *box;
+        if (!whole) whole = world_bounds(tree, id);
+    }
+    // Without end: where it has one, and as far about the camera's target along the other axes.
+    Box box = whole.value_or(Box{-about, about});
+    float half = 0.0f;
+    for (int axis = 0; axis < 3; ++axis)
+        if (box.is_bounded(axis)) half = std::max(half, 0.5f * box.size()[axis]);
+    if (half == 0.0f) half = 1.0f;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (box.is_bounded(axis)) continue;
+        const float middle = std::clamp(scene.camera.target[axis], box.low[axis], box.high[axis]);
+        box.low[axis] = middle - half, box.high[axis] = middle + half;
+    }
+    return box;
 }
 
 std::vector<Edit> camera_edits(const Camera& from, const Camera& to) {

@@ -149,20 +149,6 @@ int run_schema() {
     return 0;
 }
 
-int run_check(const std::filesystem::path& file) {
-    const Scene scene = load_scene(file);
-    const auto instances_in = [](const auto& self, const Node& node) -> int {
-        int count = node.definition != 0 ? 1 : 0;
-        for (const Node& child : node.children) count += self(self, child);
-        return count;
-    };
-    int instances = instances_in(instances_in, scene.root);
-    for (const Node& definition : scene.definitions) instances += instances_in(instances_in, definition);
-    fmt::print("{}: {} nodes, {} definitions, {} instances, {} materials, {} lights\n", file.string(),
-               count_nodes(scene), scene.definitions.size(), instances, scene.materials.size(), scene.lights.size());
-    return 0;
-}
-
 int run_bench(const BenchOptions& options) {
     Headless headless(load_trusted_scene(options.scene, options.trust_code), options.overrides, options.context);
     const Scene& scene = headless.scene;

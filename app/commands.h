@@ -70,6 +70,4 @@ int run_bench(const BenchOptions& options);
 /// Prints the scene format's JSON Schema.
 int run_schema();
 
-int run_check(const std::filesystem::path& scene);
-
 }  // namespace farfield

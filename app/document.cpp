@@ -37,6 +37,7 @@ void Document::reset() {
     history_.replace(new_scene());
     file_.clear();
     ++generation_;
+    first_camera_ = scene().camera;
     saved_revision_ = history_.revision();
 }
 
@@ -44,6 +45,7 @@ void Document::open(Scene scene, const std::filesystem::path& file) {
     history_.replace(std::move(scene));
     file_ = file;
     ++generation_;
+    first_camera_ = history_.scene().camera;
     saved_revision_ = history_.revision();
 }
 

@@ -37,6 +37,8 @@ public:
     /// Throws SceneFileError.
     void save(const std::filesystem::path& file);
 
+    /// Where the camera was when the document was opened or begun.
+    const Camera& first_camera() const { return first_camera_; }
     /// Changes when another document takes this one's place.
     std::uint64_t generation() const { return generation_; }
     const std::filesystem::path& file() const { return file_; }  ///< empty for a document that was never saved
@@ -47,6 +49,7 @@ private:
     CodeTrust& trust_;
     History history_;
     std::filesystem::path file_;
+    Camera first_camera_;
     std::uint64_t saved_revision_ = 0;
     std::uint64_t generation_ = 0;
     std::shared_ptr<const Scene> snapshot_;

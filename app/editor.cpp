@@ -1,6 +1,7 @@
 #include "app/editor.h"
 
 #include "app/editor_commands.h"
+#include "app/camera_control.h"
 #include "app/document.h"
 #include "app/file_actions.h"
 #include "app/layout.h"
@@ -66,7 +67,7 @@ public:
             const bool first = picture_.texture == 0;
             const bool news = look_for_picture();
             if (first && picture_.texture != 0) redraws = settling_frames;
-            if (news || redraws > 0 || attentive) frame();
+            if (news || ui_.audit.finished() || redraws > 0 || attentive) frame();
             if (redraws > 0) --redraws;
             write_report();
         }
@@ -101,6 +102,7 @@ private:
         }
         for (const auto& file : window_.take_dropped_files()) files_.open(file);
         keyboard();
+        ui_.audit.refresh(document_.snapshot(), document_.revision(), seconds());
 
         const glm::vec2 size(window_.size());
         ui_.trust = &trust_;
@@ -127,7 +129,7 @@ private:
     bool keyboard_changes_hands() const {
         const ImGuiContext& g = *ImGui::GetCurrentContext();
         const bool moving = g.NavMoveSubmitted && (g.NavMoveFlags & ImGuiNavMoveFlags_Tabbing);
-        return ui_.focus_name || files_.wants_keyboard() || moving;
+        return ui_.focus_name || ui_.open_add || files_.wants_keyboard() || moving;
     }
 
     void show_new_document() {
@@ -274,6 +276,15 @@ private:
             case CommandId::move_down:
                 carry_out(shift_selection(ui_, scene, 1), 0);
                 break;
+            case CommandId::frame_selection:
+                frame_object(ui_.selection);
+                break;
+            case CommandId::frame_all:
+                frame_object({ObjectType::node, scene.root.id});
+                break;
+            case CommandId::reset_camera:
+                carry_out(camera_edits(scene.camera, document_.first_camera()), ++last_gesture_);
+                break;
             case CommandId::statistics:
                 ui_.show_statistics = !ui_.show_statistics;
                 break;
@@ -284,6 +295,15 @@ private:
                 ui_.show_shortcuts = !ui_.show_shortcuts;
                 break;
         }
+    }
+
+    /// Moves the camera to where it sees the whole of a node or light; everything instead of what has no place.
+    void frame_object(ObjectRef object) {
+        const Scene& scene = document_.scene();
+        const glm::vec2 size(size_);
+        const Box box = framed_box(scene, object);
+        carry_out(camera_edits(scene.camera, framed(scene.camera, box, size.x / std::max(size.y, 1.0f))),
+                  ++last_gesture_);
     }
 
     void keyboard() {

@@ -30,7 +30,7 @@ constexpr Command commands[] = {
     {CommandId::quit, "File", "quit", "Quit", 'Q', ctrl, "Ctrl+Q", true},
     {CommandId::undo, "Edit", "undo", "Undo", 'Z', ctrl, "Ctrl+Z"},
     {CommandId::redo, "Edit", "redo", "Redo", 'Y', ctrl, "Ctrl+Y, Ctrl+Shift+Z"},
-    {CommandId::add, "Edit", "add", "Add...", 'A', plain, "A", true},
+    {CommandId::add, "Edit", "add", "Add...", 'A', plain, "A, Shift+A", true},
     {CommandId::duplicate, "Edit", "duplicate", "Duplicate", 'D', ctrl, "Ctrl+D"},
     {CommandId::rename, "Edit", "rename", "Rename", GLFW_KEY_F2, plain, "F2"},
     {CommandId::remove, "Edit", "delete", "Delete", GLFW_KEY_DELETE, plain, "Del"},
@@ -38,6 +38,9 @@ constexpr Command commands[] = {
     {CommandId::move_down, "Edit", "move_down", "Move down", GLFW_KEY_DOWN, alt, "Alt+Down"},
     {CommandId::make_definition, "Edit", "make_definition", "Make definition", 'I', ctrl, "Ctrl+I", true},
     {CommandId::make_independent, "Edit", "make_independent", "Make independent", 'I', ctrl | shift, "Ctrl+Shift+I"},
+    {CommandId::frame_selection, "View", "frame_selection", "Frame selection", 'F', plain, "F", true},
+    {CommandId::frame_all, "View", "frame_all", "Frame all", GLFW_KEY_HOME, plain, "Home, Shift+F"},
+    {CommandId::reset_camera, "View", "reset_camera", "Reset camera", GLFW_KEY_HOME, shift, "Shift+Home"},
     {CommandId::statistics, "View", "statistics", "Statistics", GLFW_KEY_F3, plain, "F3", true},
     {CommandId::code, "View", "code", "Code", GLFW_KEY_F4, plain, "F4"},
     {CommandId::shortcuts, "Help", "shortcuts", "Keys and mouse", GLFW_KEY_F1, plain, "F1"},
@@ -102,6 +105,8 @@ void table_line(const Ui& ui, const char* left, const char* right) {
 std::optional<CommandId> command_for(const KeyPress& press) {
     const int modifiers = (press.ctrl ? ctrl : 0) | (press.shift ? shift : 0) | (press.alt ? alt : 0);
     if (press.key == 'Z' && modifiers == (ctrl | shift)) return CommandId::redo;
+    if (press.key == 'F' && modifiers == shift) return CommandId::frame_all;
+    if (press.key == 'A' && modifiers == shift) return CommandId::add;
     for (const Command& command : commands)
         if (command.key == press.key && command.modifiers == modifiers) return command.id;
     return std::nullopt;

@@ -1,4 +1,5 @@
 // The command line: `farfield [SCENE]` opens the editor, the subcommands work without a window.
+#include "app/check.h"
 #include "app/commands.h"
 #include "app/contact_sheet.h"
 #include "app/editor.h"
@@ -175,9 +176,16 @@ int run(int argc, char** argv) {
 
     add_trust(*glsl_command, glsl.trust_code);
 
-    std::filesystem::path check_scene;
-    CLI::App* check_command = app.add_subcommand("check", "Validate a scene file");
-    check_command->add_option("SCENE", check_scene, "Scene file")->required();
+    CheckOptions check;
+    CLI::App* check_command =
+        app.add_subcommand("check", "Validate a scene file, print its nodes and what looks wrong");
+    check_command->add_option("SCENE", check.scene, "Scene file")->required();
+    add_whole(*check_command, "--samples", check.samples, 0, 10'000'000,
+              "Pairs of points to find each node's slope by, default 2000; 0 looks at numbers alone");
+    check_command->footer(
+        "For each node: the Lipschitz constant of its field before it is made safe to step by, where that comes from,\n"
+        "the steepest slope found afterwards, and its size in the world. Warnings go to stderr and leave the status "
+        "0.");
 
     CLI::App* schema_command = app.add_subcommand("schema", "Print the JSON Schema of scene files");
 
@@ -206,7 +214,7 @@ int run(int argc, char** argv) {
         else if (*glsl_command)
             status = run_glsl(glsl);
         else if (*check_command)
-            status = run_check(check_scene);
+            status = run_check(check);
         else if (*schema_command)
             status = run_schema();
         else if (*sheet_command)

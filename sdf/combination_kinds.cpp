@@ -120,6 +120,11 @@ void add_combinations(std::vector<KindInfo>& t) {
         K::morph, "morph", "Morph", "Something between the children", false,
         {{"amount", "0 shows the first child, 1 the second", number, Unit::none, 0.0f, 1.0f, {0.5f, 0.0f, 0.0f}}},
         FUNCTION(combine, morph), FUNCTION(combine, morph_weight), never_hard(Gather::any)));
+    t.back().warnings = [](const Extent&, std::size_t shapes, Values) {
+        if (shapes == 2) return Warnings{};
+        return Warnings{
+            fmt::format("a morph is between two shapes, and there {} {} in it", shapes == 1 ? "is" : "are", shapes)};
+    };
 }
 
 }  // namespace farfield

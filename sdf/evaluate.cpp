@@ -64,6 +64,12 @@ FieldEvaluator::Sample FieldEvaluator::evaluate(const FieldNode& node, glm::vec3
     return s;
 }
 
+float FieldEvaluator::unsafe_distance(const FieldNode& node, glm::vec3 p) const {
+    const KindInfo& kind = *node.kind;
+    if (kind.domain) return fold(node, kind.domain(p, node.values, 0), 0).distance;
+    return kind.distance(fold(node, p, 0).distance, p, node.values) * node.stretch();
+}
+
 float FieldEvaluator::distance(glm::vec3 p) const {
     return !tree_.root ? empty_distance : evaluate(*tree_.root, p, 0).distance;
 }

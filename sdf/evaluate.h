@@ -16,6 +16,11 @@ public:
     const FieldTree& tree() const { return tree_; }
     /// Signed distance bound at p (world frame, metres), negative inside.
     float distance(glm::vec3 p) const;
+    /// The same of one node alone, p in its parent's frame.
+    float distance(const FieldNode& node, glm::vec3 p) const { return evaluate(node, p, 0).distance; }
+    /// Before a node with a stretch is made safe; p in the node's own frame. Its steepest slope is promised where p
+    /// lies in the node's region and its image in what its children fill.
+    float unsafe_distance(const FieldNode& node, glm::vec3 p) const;
     /// Unit direction of steepest ascent by central differences over 2 h; the up direction where the field is flat.
     glm::vec3 normal(glm::vec3 p, float h = 1e-3f) const;
     /// Material code (see blend_materials) of the surface nearest to p.

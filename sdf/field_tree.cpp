@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 #include <unordered_map>
 #include <utility>
 
@@ -82,9 +83,12 @@ Extent own_extent(const FieldNode& node, float level, Definitions& definitions) 
     return extent;
 }
 
-/// A box's coordinates are rounded a few times on their way up; this is a hundred times that.
+/// A box's coordinates are rounded a few times on their way up; this is a hundred times that. Sides without end do not
+/// count: a half-space ends where it does.
 Box with_margin(const Box& box) {
-    const glm::vec3 margin = 1e-5f * glm::max(glm::abs(box.low), glm::abs(box.high));
+    const auto size = [](float v) { return std::abs(v) < 0.5f * unbounded ? std::abs(v) : 0.0f; };
+    glm::vec3 margin;
+    for (int axis = 0; axis < 3; ++axis) margin[axis] = 1e-5f * std::max(size(box.low[axis]), size(box.high[axis]));
     return Box{box.low - margin, box.high + margin}.valid();
 }
 
@@ -137,7 +141,69 @@ FieldNode prepare(const Node& node, std::uint32_t inherited, Definitions& defini
     return part;
 }
 
+/// The nodes from `node` to the one with this id, in that order; empty where it is not below.
+bool find_path(const FieldNode& node, Id id, std::vector<const FieldNode*>& path) {
+    path.push_back(&node);
+    if (node.id == id) return true;
+    for (const FieldNode& child : node.children)
+        if (find_path(child, id, path)) return true;
+    path.pop_back();
+    return false;
+}
+
+/// A part of the node's content, in its own frame, as it shows in its parent's frame.
+Box part_in_parent(const FieldNode& node, Box part) {
+    const KindInfo& kind = *node.kind;
+    if (kind.role != Role::combine && kind.reach) part = part.grown(kind.reach(node.values));
+    if (kind.image) part = kind.image({part, {}}, node.values).box;
+    return to_parent(node, part);
+}
+
+/// `path` leads from the root to a node; the box is in that node's parent's frame.
+Box in_world(std::span<const FieldNode* const> path, Box box) {
+    for (std::size_t i = path.size() - 1; i-- > 0;) box = part_in_parent(*path[i], box);
+    return box;
+}
+
+std::optional<Box> finite_part(std::vector<const FieldNode*>& path) {
+    const FieldNode& node = *path.back();
+    if (const Box box = in_world(path, node.extent.box); box.is_bounded()) return box;
+    std::optional<Box> bounds;
+    for (const FieldNode& child : node.children) {
+        path.push_back(&child);
+        if (const auto part = finite_part(path)) bounds = bounds ? bounds->united(*part) : *part;
+        path.pop_back();
+        if (node.kind->gather == Gather::first) break;
+    }
+    return bounds;
+}
+
 }  // namespace
+
+Extent content_extent(const FieldNode& node) {
+    if (node.children.empty()) return node.extent;
+    Extent extent = node.children[0].extent;
+    if (node.kind->gather == Gather::first) return extent;
+    for (const FieldNode& child : std::span(node.children).subspan(1)) {
+        const Box& box = child.extent.box;
+        extent.box = node.kind->gather == Gather::all ? extent.box.common(box) : extent.box.united(box);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            extent.symmetric[axis] = extent.symmetric[axis] && child.extent.symmetric[axis];
+    }
+    return extent;
+}
+
+std::optional<Box> world_bounds(const FieldTree& tree, Id id) {
+    std::vector<const FieldNode*> path;
+    if (!tree.root || !find_path(*tree.root, id, path)) return std::nullopt;
+    return in_world(path, path.back()->extent.box);
+}
+
+std::optional<Box> finite_bounds(const FieldTree& tree, Id id) {
+    std::vector<const FieldNode*> path;
+    if (!tree.root || !find_path(*tree.root, id, path)) return std::nullopt;
+    return finite_part(path);
+}
 
 FieldTree::FieldTree(const Scene& scene) {
     Definitions prepared(scene, definitions);

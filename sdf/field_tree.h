@@ -65,6 +65,15 @@ struct FieldTree {
     std::vector<FieldNode> definitions;  ///< those that show, each after all that it uses
 };
 
+/// What the node's children fill together, in its own frame; what a primitive fills itself.
+Extent content_extent(const FieldNode& node);
+
+/// Bounds in the world of what node `id` fills, conservatively: operations above it move, copy and bend it, and do not
+/// take anything away. Unbounded along axes where it has no end. None where the node adds no shape.
+std::optional<Box> world_bounds(const FieldTree& tree, Id id);
+/// As world_bounds, without those parts of unions that have no end; bounded, and none where nothing is.
+std::optional<Box> finite_bounds(const FieldTree& tree, Id id);
+
 /// The node below `node` (itself included) with this id; null where it adds no shape.
 const FieldNode* find(const FieldNode& node, Id id);
 

@@ -4,6 +4,7 @@
 
 #include "sdf/node_kinds.h"
 
+#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
 #include <glm/geometric.hpp>
@@ -104,6 +105,8 @@ Parameter rate(const char* tip, float initial) {
 Parameter whole(const char* key, const char* tip, float initial, float minimum = 1.0f) {
     return {key, tip, ParameterType::integer, Unit::none, minimum, 1000.0f, glm::vec3(initial, 0.0f, 0.0f)};
 }
+
+using Warnings = std::vector<std::string>;
 
 /// Of unions and displacements: the most that they add, where that is the first parameter.
 float first_parameter(Values v) { return v[0].x; }

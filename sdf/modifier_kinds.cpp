@@ -31,12 +31,13 @@ Extent repeat_image(const Extent& content, Values v) {
     return image;
 }
 
+constexpr float most_cells = 16.0f;  // of content that wide; copies beyond do not show
+
 // Of content that is `width` wide, each point has its nearest copy among the 1 + ceil(width / spacing) copies whose
 // middles are nearest: a copy further off is at least its half width further than one between. Content that fits into
 // its cell and is its own mirror image needs one: the planes between cells are mirrors, and what lies beyond is as far
 // or further. Content without end along the axis is taken to be the same all along it.
 void derive_repeat(const Extent& content, Values v, std::span<glm::vec3> derived) {
-    constexpr float most_cells = 16.0f;  // of content that wide; copies beyond do not show
     for (int axis = 0; axis < 3; ++axis) {
         const float spacing = v[0][axis], count = v[1][axis], width = content.box.size()[axis];
         float& cells = derived[0][axis];
@@ -75,11 +76,10 @@ glm::vec3 polar_repeat(glm::vec3 p, Values v, int cell) {
     return shapes::polar_repeat(p, v[0].x, v[1].x, v[2].x, cell);
 }
 
-// As derive_repeat, with angles: the distance to a turned copy grows with the angle between it and p.
-void derive_polar_repeat(const Extent& content, Values v, std::span<glm::vec3> derived) {
-    constexpr float most_cells = 16.0f, full_turn = 6.2831853f;
-    const Box& box = content.box;
-    const float count = v[0].x, sector = full_turn / count;
+constexpr float full_turn = 6.2831853f;
+
+/// The angle about the y axis that a box takes up, and its middle.
+std::pair<float, float> sweep(const Box& box) {
     float width = full_turn, centre = 0.0f;
     const bool holds_axis = box.low.x <= 0.0f && box.high.x >= 0.0f && box.low.z <= 0.0f && box.high.z >= 0.0f;
     if (!holds_axis && box.is_bounded(0) && box.is_bounded(2)) {
@@ -91,9 +91,79 @@ void derive_polar_repeat(const Extent& content, Values v, std::span<glm::vec3> d
                 most = std::max(most, std::abs(std::remainder(std::atan2(z, x) - centre, full_turn)));
         width = 2.0f * most;
     }
+    return {width, centre};
+}
+
+// As derive_repeat, with angles: the distance to a turned copy grows with the angle between it and p.
+void derive_polar_repeat(const Extent& content, Values v, std::span<glm::vec3> derived) {
+    const float count = v[0].x, sector = full_turn / count;
+    const auto [width, centre] = sweep(content.box);
     const bool one = content.symmetric[2] && centre == 0.0f && width <= sector;
     derived[0].x = one ? 1.0f : std::min({1.0f + std::ceil(width / sector), most_cells, count});
     derived[1].x = centre;
+}
+
+Warnings overlap_warning(float copies) {
+    if (copies <= most_cells) return {};
+    return {fmt::format("its content is so wide that {:.0f} copies lie over one another; only {:.0f} of them are drawn",
+                        copies, most_cells)};
+}
+
+Warnings repeat_warnings(const Extent& content, std::size_t, Values v) {
+    Warnings found;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float spacing = v[0][axis], count = v[1][axis], width = content.box.size()[axis];
+        if (spacing <= 0.0f || count == 1.0f) continue;
+        if (!content.box.is_bounded(axis)) {
+            found.push_back(
+                fmt::format("its content has no end along {}, where it is repeated: copies are cut where "
+                            "their cells meet",
+                            "xyz"[axis]));
+        } else {
+            const float copies = 1.0f + std::ceil(width / spacing);
+            for (const std::string& warning : overlap_warning(count > 0.0f ? std::min(copies, count) : copies))
+                found.push_back(fmt::format("along {} {}", "xyz"[axis], warning));
+        }
+    }
+    return found;
+}
+
+Warnings polar_repeat_warnings(const Extent& content, std::size_t, Values v) {
+    const float count = v[0].x;
+    return overlap_warning(std::min(1.0f + std::ceil(sweep(content.box).first * count / full_turn), count));
+}
+
+Warnings mirror_warnings(const Extent& content, std::size_t, Values v) {
+    Warnings found;
+    for (int axis = 0; axis < 3; ++axis)  // a box has a margin of 1e-5 of its coordinates
+        if (v[0][axis] > 0.5f && content.box.high[axis] <= -1e-4f * content.box.low[axis])
+            found.push_back(
+                fmt::format("its content lies on the negative side of {} alone and never shows: the "
+                            "positive side is mirrored",
+                            "xyz"[axis]));
+    return found;
+}
+
+Warnings flat_warnings(const Extent& content, std::size_t, Values) {
+    const float low = content.box.low.z, high = content.box.high.z;
+    if (low <= 0.0f && high >= 0.0f) return {};
+    return {
+        fmt::format("its content lies between z = {:.3g} and {:.3g} m and has no cross-section at z = 0, which is "
+                    "what shows",
+                    low, high)};
+}
+
+Warnings shell_warnings(const Extent&, std::size_t, Values v) {
+    constexpr float thinnest = 1e-4f;  // metres; rays stop about as far from a surface a metre away
+    if (v[0].x >= thinnest) return {};
+    return {fmt::format("a skin of {:.3g} m is thinner than rays can see; at least {:g} m", v[0].x, thinnest)};
+}
+
+/// "twist: 110 °/m at up to 0.42 m from the axis".
+std::string turned_text(const char* kind, float rate, float from_axis) {
+    const std::string text = fmt::format("{}: {:.3g} °/m", kind, std::abs(glm::degrees(rate)));
+    if (from_axis > 0.5f * unbounded) return text + ", and its content has no end away from the axis";
+    return text + fmt::format(" at up to {:.3g} m from the axis, from the bounds of its content", from_axis);
 }
 
 KindInfo make_modifier(NodeKind kind, const char* key, const char* label, const char* tip, Role role, bool exact,
@@ -115,6 +185,7 @@ void add_modifiers(std::vector<KindInfo>& t) {
         "mirror");
     mirror.domain = domain<shapes::mirror>;
     mirror.image = mirror_image;
+    mirror.warnings = mirror_warnings;
     t.push_back(mirror);
 
     KindInfo elongate =
@@ -152,6 +223,7 @@ void add_modifiers(std::vector<KindInfo>& t) {
     repeat_kind.derived = {{"cells", "Copies along each axis that can be nearest", ParameterType::count},
                            {"centre", "Middle of one copy", vector, metres}};
     repeat_kind.derive = derive_repeat;
+    repeat_kind.warnings = repeat_warnings;
     repeat_kind.secondary = "repeat_cells";
     t.push_back(repeat_kind);
 
@@ -166,6 +238,7 @@ void add_modifiers(std::vector<KindInfo>& t) {
     polar.derived = {{"cells", "Copies that can be nearest", number},
                      {"centre", "Angle at which one copy has its middle", number}};
     polar.derive = derive_polar_repeat;
+    polar.warnings = polar_repeat_warnings;
     t.push_back(polar);
 
     KindInfo twist = make_modifier(K::twist, "twist", "Twist", "Turns the content about the y axis as it goes up",
@@ -179,6 +252,7 @@ void add_modifiers(std::vector<KindInfo>& t) {
         derived[0].x = reach(content.box, 0, 2);
     };
     twist.stretch = [](Values v) { return shapes::twist_stretch(v[0].x, v[1].x); };
+    twist.explain = [](Values v) { return turned_text("twist", v[0].x, v[1].x); };
     twist.confined = true;
     t.push_back(twist);
 
@@ -197,6 +271,7 @@ void add_modifiers(std::vector<KindInfo>& t) {
         derived[0].x = reach(content.box, 0, 1);
     };
     bend.stretch = [](Values v) { return shapes::bend_stretch(v[0].x, v[1].x); };
+    bend.explain = [](Values v) { return turned_text("bend", v[0].x, v[1].x); };
     bend.confined = true;
     t.push_back(bend);
 
@@ -232,6 +307,12 @@ void add_modifiers(std::vector<KindInfo>& t) {
         derived[1].x = reach(content.box, 0, 2);
     };
     taper.stretch = [](Values v) { return shapes::taper_stretch(v[0].x, v[1].x, v[2].x); };
+    taper.explain = [](Values v) {
+        const std::string text = fmt::format("taper: {:.3g} times the width where narrowest", v[1].x);
+        if (v[2].x > 0.5f * unbounded) return text + ", and its content has no end away from the axis";
+        return text + fmt::format(", {:.3g} /m at up to {:.3g} m from the axis, from the bounds of its content", v[0].x,
+                                  v[2].x);
+    };
     taper.confined = true;
     t.push_back(taper);
 
@@ -245,6 +326,9 @@ void add_modifiers(std::vector<KindInfo>& t) {
         return Extent{Box{content.box.low * v[0], content.box.high * v[0]}.valid(), content.symmetric};
     };
     stretch.stretch = [](Values v) { return 1.0f / glm::min(v[0].x, glm::min(v[0].y, v[0].z)); };
+    stretch.explain = [](Values v) {
+        return fmt::format("stretch: 1 / the smallest factor {:.3g}", glm::min(v[0].x, glm::min(v[0].y, v[0].z)));
+    };
     stretch.confined = true;
     t.push_back(stretch);
 
@@ -257,6 +341,7 @@ void add_modifiers(std::vector<KindInfo>& t) {
     extrude.secondary = "extrude_distance";
     extrude.distance = safe_distance<shapes::extrude_distance>;
     extrude.flat = true;
+    extrude.warnings = flat_warnings;
     extrude.image = [](const Extent& content, Values v) {
         Extent image{content.box, {content.symmetric[0], content.symmetric[1], true}};
         image.box.low.z = -v[0].x, image.box.high.z = v[0].x;
@@ -269,6 +354,7 @@ void add_modifiers(std::vector<KindInfo>& t) {
         true, {length("offset", "How far the content is moved out along x before", 0.5f)}, "revolve");
     revolve.domain = domain<shapes::revolve>;
     revolve.flat = true;
+    revolve.warnings = flat_warnings;
     revolve.image = [](const Extent& content, Values v) {
         const float r = glm::clamp(content.box.high.x + v[0].x, 0.0f, unbounded);
         return Extent{{{-r, content.box.low.y, -r}, {r, content.box.high.y, r}}, {true, content.symmetric[1], true}};
@@ -278,6 +364,7 @@ void add_modifiers(std::vector<KindInfo>& t) {
     KindInfo shell = make_modifier(K::shell, "shell", "Shell", "Hollows the content to a skin", Role::distance, true,
                                    {length("thickness", "Thickness of the skin, half on either side", 0.05f)}, "shell");
     shell.distance = modify<shapes::shell>;
+    shell.warnings = shell_warnings;
     shell.reach = [](Values v) { return 0.5f * v[0].x; };
     t.push_back(shell);
 
@@ -296,6 +383,9 @@ void add_modifiers(std::vector<KindInfo>& t) {
     sine.reach = first_parameter;
     sine.image = without_symmetry;
     sine.stretch = [](Values v) { return 1.0f + 6.2831853f * v[0].x / v[1].x; };
+    sine.explain = [](Values v) {
+        return fmt::format("sine waves: 1 + 2 pi times the amplitude {:.3g} / the wavelength {:.3g}", v[0].x, v[1].x);
+    };
     t.push_back(sine);
 
     KindInfo noise =
@@ -310,6 +400,10 @@ void add_modifiers(std::vector<KindInfo>& t) {
     noise.image = without_symmetry;
     noise.reach = [](Values v) { return 2.0f * v[0].x; };
     noise.stretch = [](Values v) { return 1.0f + 3.75f * v[2].x * v[0].x / v[1].x; };
+    noise.explain = [](Values v) {
+        return fmt::format("noise: 1 + 3.75 times {:.0f} {} of the amplitude {:.3g} / the size {:.3g}", v[2].x,
+                           v[2].x == 1.0f ? "octave" : "octaves", v[0].x, v[1].x);
+    };
     t.push_back(noise);
 
     t.push_back(make_modifier(K::instance, "instance", "Instance",

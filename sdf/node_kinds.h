@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -162,6 +163,13 @@ struct KindInfo {
     /// p: with c that point, sqrt(|p - c|² + d(c)²) is 1-Lipschitz where d is, because a projection on a convex set is
     /// firmly nonexpansive.
     bool confined;
+
+    // What an audit tells (sdf/audit.h).
+    /// Where `stretch` comes from, as a sentence with the numbers; set where `stretch` is.
+    std::string (*explain)(Values v);
+    /// What is wrong with parameters and content that are valid, one sentence each; null: nothing ever is. `shapes`:
+    /// how many of the children add one.
+    std::vector<std::string> (*warnings)(const Extent& content, std::size_t shapes, Values v);
 
     bool takes_children() const { return role != Role::primitive && role != Role::instance; }
 };

@@ -185,6 +185,30 @@ TEST(CommandLine, WrongUseAndWrongInputExitWithTwo) {
     EXPECT_FALSE(std::filesystem::exists(folder / "out.png"));
 }
 
+TEST(CommandLine, CheckTellsOfNodesAndWarnsAtTheirLines) {
+    const TemporaryFolder folder;
+    const std::string file = (folder / "scene.json").string();
+    write_text(file, R"({"farfield": 1, "root": {"kind": "union", "children": [
+        {"kind": "twist", "name": "vase", "rate": 110, "children": [
+            {"kind": "box", "half_size": [0.3, 0.5, 0.3]}]},
+        {"kind": "shell", "name": "skin", "thickness": 5e-5, "children": [{"kind": "sphere"}]}]}})");
+    const Outcome found = farfield_command(fmt::format("check '{}' --samples 100", file));
+    EXPECT_EQ(found.status, 0) << found.output;
+    for (const char* text :
+         {"5 nodes", "bounds  x -0.5 to 0.5", "camera  outside of what is solid", "\n  vase ", "\n    Box ",
+          "twist: 110 °/m at up to 0.424 m from the axis", "0.849 x 1 x 0.849 m", "1 warning\n"})
+        EXPECT_NE(found.output.find(text), std::string::npos) << text << "\n" << found.output;
+    EXPECT_NE(found.output.find(file + ":4: root/children[1] \"skin\": a skin of 5e-05 m"), std::string::npos)
+        << found.output;
+    const Outcome table = farfield_command(fmt::format("check '{}' 2>/dev/null", file));
+    EXPECT_EQ(table.output.find("a skin"), std::string::npos) << "warnings go to stderr";
+    for (const auto& bundled : bundled_scenes()) {
+        const Outcome quiet = farfield_command(fmt::format("check '{}' >/dev/null", bundled.string()));
+        EXPECT_EQ(quiet.output, "") << bundled;
+    }
+    EXPECT_EQ(farfield_command(fmt::format("check '{}' --samples -1", file)).status, 2);
+}
+
 TEST(CommandLine, AMessageAboutAnOptionTellsOptionFoundAndExpected) {
     const std::pair<const char*, const char*> cases[] = {
         {"--frames 0", "--frames: \"0\" given, expected a whole number between 1 and 1000000"},

@@ -237,6 +237,70 @@ def click_shapes(editor):
     editor.wait("the scene around it", lambda r: r["selection"] == "scene")
 
 
+def frame(editor):
+    """F and Home bring the selection and everything into the picture; each is one step of undo."""
+    editor.click("tree/short block")
+    report = editor.wait("the block", lambda r: r["selection"] == "short block")
+    first = report["revision"]
+    for keys in ("f", "Home", "shift+f"):
+
+        def press():
+            before = editor.report()["revision"]
+            editor.key(keys)
+            editor.wait(f"the camera moves by {keys}", lambda r: r["revision"] > before)
+            editor.settled()
+
+        check_seen(editor, press, f"what {keys} frames")
+        editor.key("ctrl+z")
+        editor.wait(f"{keys} taken back", lambda r: r["revision"] == first)
+    editor.key("f")
+    moved = editor.wait("the camera moves", lambda r: r["revision"] > first)["revision"]
+    editor.key("shift+Home")
+    editor.wait("the camera is back", lambda r: r["revision"] > moved)
+    editor.key("ctrl+z", "ctrl+z")
+    report = editor.wait("all taken back", lambda r: r["saved"])
+    check(report["revision"] == first, "framing leaves one step each")
+
+
+def search_kinds(editor):
+    """The list of kinds has the keyboard at once; Enter takes the first that is found, arrows another."""
+    editor.click("tree/scene")
+    editor.wait("the union is selected", lambda r: r["selection"] == "scene")
+    for open_key, typed, extra, name in (("a", "tor", (), "Torus"), ("shift+a", "round sub", (), "Round subtract"),
+                                         ("a", "capped", ("Down",), "Capped cone")):
+        editor.key(open_key)
+        editor.wait("the list", lambda r: "add/search" in r["controls"] and r["typing"])
+        editor.type(typed)
+        editor.wait("what is found", lambda r: "add/sphere" not in r["controls"])
+        editor.key(*extra, "Return")
+        editor.wait(f"the {name}", lambda r: r["selection"] == name and not r["saved"])
+        editor.key("ctrl+z")
+        editor.wait("it is gone", lambda r: r["saved"])
+        editor.click("tree/scene")
+        editor.wait("the union is selected", lambda r: r["selection"] == "scene")
+    editor.key("a")
+    editor.type("zzz")
+    editor.key("Return", "Escape")
+    report = editor.wait("no list", lambda r: "add/search" not in r["controls"])
+    check(report["saved"], "what is not found adds nothing")
+
+
+def audit(editor):
+    """An audit runs while the picture goes on, and a node that never shows is marked."""
+    editor.click("tree/tall block")
+    editor.wait("the block", lambda r: r["selection"] == "tall block")
+    editor.point_at("inspector/scale")
+    editor.display.xdotool("click", "--repeat", 10, "--delay", 40, 5)  # what is below comes into sight
+    editor.click("inspector/audit")
+    editor.wait("a slope", lambda r: "inspector/slope" in r["controls"])
+    editor.click("tree/scene")
+    editor.click("tree_panel/add")
+    editor.click("add/mirror")
+    editor.wait("a mark", lambda r: "tree_warning/Mirror" in r["controls"])
+    editor.key("ctrl+z")
+    editor.wait("no mark", lambda r: r["saved"] and "tree_warning/Mirror" not in r["controls"])
+
+
 def type_without_traces(editor):
     """Opening a number's text changes nothing, Escape leaves no step, and what is typed is one step."""
     editor.click("tree/short block")
@@ -460,6 +524,9 @@ def main():
                 lambda: start(editor),
                 lambda: read_code(editor, program, scene),
                 lambda: click_shapes(editor),
+                lambda: frame(editor),
+                lambda: search_kinds(editor),
+                lambda: audit(editor),
                 lambda: type_without_traces(editor),
                 lambda: add_sphere_under_union(editor),
                 lambda: type_values(editor),
@@ -473,7 +540,7 @@ def main():
                 lambda: show_error(editor, Path(folder) / "bad.json"),
                 lambda: custom_code(editor, Path(folder) / "foreign.json", Path(folder) / "farfield" / "trusted"),
             ]
-            names = ["start", "read the code", "click shapes", "type without traces", "add a sphere under a union", "type values", "drag a radius", "sample count",
+            names = ["start", "read the code", "click shapes", "frame", "search kinds", "audit", "type without traces", "add a sphere under a union", "type values", "drag a radius", "sample count",
                      "blur levels", "AO radius", "save", "reload", "define and free", "an error in a file", "custom code"]
             for name, step in zip(names, steps):
                 print(f"{name} ...", flush=True)

@@ -3,6 +3,7 @@
 #include "sdf/scene_file.h"
 #include "tests/test_support.h"
 #include "ui/glsl_tokens.h"
+#include "ui/kind_menu.h"
 #include "ui/number_field.h"
 
 #include <gtest/gtest.h>
@@ -56,6 +57,45 @@ TEST(TypedNumber, IsReadAsPeopleTypeIt) {
     EXPECT_EQ(typed_number("1e-3", ""), 1e-3f);
     for (const char* text : {"", " ", "m", "1.5 x", "1,000.5", "+-1", "nan", "inf", "1e99"})
         EXPECT_EQ(typed_number(text, "m"), std::nullopt) << text;
+}
+
+std::vector<std::string> found_kinds(std::string_view text) {
+    std::vector<std::string> keys;
+    for (const KindInfo* kind : matching_kinds(text, [](const KindInfo&) { return true; })) keys.push_back(kind->key);
+    return keys;
+}
+
+TEST(KindMenu, FindsKindsByWhatIsTyped) {
+    const std::pair<const char*, const char*> first[] = {
+        {"sph", "sphere"},
+        {"BOX", "box"},
+        {"tw", "twist"},
+
+        {"round sub", "round_subtract"},
+        {"polar", "polar_repeat"},
+        {"frame", "box_frame"},
+        {"repeat", "repeat"},
+        {" torus ", "torus"},
+        {"union", "union"},
+        {"stairs u", "stairs_union"},
+        {"waves", "displace_sine"},
+    };
+    for (const auto& [text, key] : first) {
+        ASSERT_FALSE(found_kinds(text).empty()) << text;
+        EXPECT_EQ(found_kinds(text)[0], key) << text;
+    }
+    EXPECT_TRUE(found_kinds("no such thing").empty());
+    EXPECT_EQ(found_kinds("").size(), node_kinds().size() - 1);  // instances are offered by what they show
+    EXPECT_EQ(found_kinds("profiles").size(), 6u);
+    for (const KindInfo* kind : matching_kinds("union", [](const KindInfo& k) { return k.role == Role::primitive; }))
+        EXPECT_EQ(kind->role, Role::primitive);
+}
+
+TEST(KindMenu, EveryKindIsFoundFirstByItsLabel) {
+    for (const KindInfo& kind : node_kinds())
+        if (kind.role != Role::instance) {
+            EXPECT_EQ(found_kinds(kind.label)[0], kind.key);
+        }
 }
 
 }  // namespace

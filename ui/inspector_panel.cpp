@@ -151,6 +151,75 @@ void code_rows(Ui& ui, const Node& node) {
     tooltip(ui, "The GLSL of this node; its uniforms are the values below");
 }
 
+std::string range_text(const Box& box) {
+    std::string text = "In the world:";
+    for (int axis = 0; axis < 3; ++axis)
+        text += box.is_bounded(axis)
+                    ? fmt::format("\n{} from {:.4g} to {:.4g} m", "xyz"[axis], box.low[axis], box.high[axis])
+                    : fmt::format("\n{} without end", "xyz"[axis]);
+    return text;
+}
+
+void wrapped(ImU32 color, const std::string& text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
+}
+
+void slope_row(Ui& ui, const NodeAudit& audit) {
+    row_label(ui, "Slope found", false);
+    if (ui.audit.running()) {
+        ImGui::TextDisabled("trying points ...");
+    } else if (ui.audit.sampled()) {
+        ImGui::AlignTextToFramePadding();
+        if (audit.samples == 0)
+            ImGui::TextDisabled("not tried: too much is in it");
+        else if (audit.unsafe_slope)
+            ImGui::Text("%.3g, made safe %.3f", *audit.unsafe_slope, audit.slope);
+        else
+            ImGui::Text("%.3f", audit.slope);
+        ui.report.item("inspector", "slope");
+        tooltip(ui,
+                fmt::format("The steepest among {} pairs of points. At most 1 where steps are safe.", audit.samples),
+                audit.unsafe_slope ? "Before it is made safe: at most the Lipschitz constant" : "");
+    } else {
+        if (ImGui::Button("Audit", {-FLT_MIN, 0.0f})) ui.audit.start();
+        ui.report.item("inspector", "audit");
+        tooltip(ui, "Tries points of every node for places that are steeper than promised",
+                "In the background; what is found is marked in the tree");
+    }
+}
+
+/// What is known about the node's distance field.
+void field_block(Ui& ui, const Node& node) {
+    const NodeAudit* audit = ui.audit.find(node.id);
+    if (!audit || (!audit->shows && node.children.empty())) return;
+    section(ui, "Field");
+    for (const std::string& warning : ui.audit.warnings(node.id)) {
+        const ImVec2 start = ImGui::GetCursorScreenPos();
+        draw_warning(ui, {start.x + ui.theme.px(7.0f), start.y + ImGui::GetTextLineHeight() * 0.5f});
+        ImGui::Indent(ui.theme.px(20.0f));
+        wrapped(ui.theme.warning, warning);
+        ui.report.item("inspector", "warning");
+        ImGui::Unindent(ui.theme.px(20.0f));
+    }
+    if (!audit->shows) return;
+    row_label(ui, "Bounds", false);
+    ImGui::TextUnformatted(size_text(audit->world).c_str());
+    tooltip(ui, range_text(audit->world));
+    row_label(ui, "Lipschitz", audit->stretch > 1.0f);
+    ImGui::Text("%.4g", audit->stretch);
+    ui.report.item("inspector", "lipschitz");
+    tooltip(ui, "How steep the field would be without care; steps are that much shorter",
+            "1: a step as long as the distance is safe as it is");
+    ImGui::PushFont(ui.theme.small_font);
+    wrapped(ui.theme.dim, audit->origin);
+    ImGui::PopFont();
+    slope_row(ui, *audit);
+}
+
 void inspect_node(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
     name_row(ui, ui.inspected, node.name, display_name(scene, node).c_str(), edits);
     kind_row(ui, scene, node, edits);
@@ -173,6 +242,7 @@ void inspect_node(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
         ImGui::TextDisabled("Nothing inside yet: it shows once it holds a shape. Press + Add, or drag nodes onto it.");
         ImGui::PopTextWrapPos();
     }
+    field_block(ui, node);
     if (find_definition(scene, node.id))
         delete_button(ui, scene, "Delete definition", count_uses(scene, node.id) == 0, edits);
     else if (node.id != scene.root.id)

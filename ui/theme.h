@@ -18,6 +18,7 @@ struct Theme {
     ImU32 accent = IM_COL32(240, 165, 80, 255);
     ImU32 text = IM_COL32(222, 226, 232, 255);
     ImU32 dim = IM_COL32(140, 148, 160, 255);
+    ImU32 warning = IM_COL32(232, 196, 92, 255);
     ImU32 error = IM_COL32(235, 105, 95, 255);
     ImU32 error_background = IM_COL32(74, 32, 32, 255);
     ImU32 header = IM_COL32(37, 41, 48, 255);

@@ -71,6 +71,7 @@ public:
 private:
     void decorate(const Node& node, const std::string& name, float left, ImVec2 low, ImVec2 high) const {
         const KindInfo& kind = info(node.kind);
+        const bool warned = !ui_.audit.warnings(node.id).empty() && !(node.children.empty() && &node == &scene_.root);
         const float middle = (low.y + high.y) * 0.5f;
         const float x = left + ImGui::GetTreeNodeToLabelSpacing();
         draw_icon(ui_, kind.role, {x + ui_.theme.px(3.0f), middle});
@@ -83,11 +84,24 @@ private:
         ImFont* font = ui_.theme.small_font;
         const char* label = stopped ? "not run" : kind.label;
         const float width = font->CalcTextSizeA(font->FontSize, 1e6f, 0.0f, label).x;
-        const float from = high.x - width - ui_.theme.px(8.0f);
+        const float right = high.x - (warned ? ui_.theme.px(18.0f) : 0.0f);
+        const float from = right - width - ui_.theme.px(8.0f);
         if ((stopped || !node.name.empty()) && from > text.x + ImGui::CalcTextSize(name.c_str()).x + ui_.theme.px(8.0f))
             draw.AddText(font, font->FontSize, {from, middle - font->FontSize * 0.5f},
                          stopped ? ui_.theme.error : ui_.theme.dim, label);
         draw.PopClipRect();
+        if (warned) warning_mark(node.id, name, {high.x - ui_.theme.px(11.0f), middle}, high.y - low.y);
+    }
+
+    void warning_mark(Id node, const std::string& name, ImVec2 centre, float height) const {
+        const ImVec2 half{ui_.theme.px(9.0f), height * 0.5f};
+        const ImVec2 low{centre.x - half.x, centre.y - half.y}, high{centre.x + half.x, centre.y + half.y};
+        draw_warning(ui_, centre);
+        ui_.report.rectangle("tree_warning", name, low, high);
+        if (!ImGui::IsMouseHoveringRect(low, high)) return;
+        std::string text;
+        for (const std::string& warning : ui_.audit.warnings(node)) text += (text.empty() ? "" : "\n") + warning;
+        tooltip(ui_, text);
     }
 
     void drag_and_drop(const Node& node, const Node* parent, ImVec2 low, ImVec2 high) {
@@ -260,7 +274,7 @@ Edits tree_panel(Ui& ui, const Scene& scene) {
     ui.open_add = false;
     ui.report.item("tree_panel", "add");
     tooltip(ui, "Adds a shape or an operation",
-            "Into the selected operation, or after the selected shape. Shortcut: A");
+            "Into the selected operation, or after the selected shape. Shortcut: A; what is typed then searches");
     ImGui::SetNextWindowPos({low.x + ui.theme.px(8.0f), high.y + ui.theme.px(2.0f)}, ImGuiCond_Appearing);
     if (ImGui::BeginPopup("add")) {
         if (auto node = node_menu(ui, "add", scene)) {

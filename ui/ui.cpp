@@ -106,6 +106,16 @@ void draw_icon(const Ui& ui, Role role, ImVec2 centre) {
     }
 }
 
+void draw_warning(const Ui& ui, ImVec2 centre) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float r = ui.theme.px(6.0f), y = centre.y + ui.theme.px(0.5f);
+    draw.AddTriangleFilled({centre.x, y - r}, {centre.x + r, y + r * 0.8f}, {centre.x - r, y + r * 0.8f},
+                           ui.theme.warning);
+    const float bar = ui.theme.px(0.8f);
+    draw.AddRectFilled({centre.x - bar, y - r * 0.4f}, {centre.x + bar, y + r * 0.2f}, ui.theme.header);
+    draw.AddRectFilled({centre.x - bar, y + r * 0.4f}, {centre.x + bar, y + r * 0.65f}, ui.theme.header);
+}
+
 float splitter(Ui& ui, const char* id, ImVec2 low, ImVec2 extent) {
     const bool upright = extent.y > extent.x;
     ImGui::SetCursorScreenPos(low);

@@ -6,6 +6,7 @@
 #include "sdf/code_trust.h"
 #include "sdf/edit.h"
 #include "ui/report.h"
+#include "ui/scene_audit.h"
 #include "ui/theme.h"
 
 #include <string>
@@ -25,6 +26,12 @@ struct NumberEntry {
     float along = 0.0f;      ///< where the mouse is on a slider, 0 to 1
     unsigned clicked = 0;    ///< the slider that was clicked
     double click_due = 0.0;  ///< and when that counts
+};
+
+/// What the menu of kinds searches for while it is open.
+struct KindSearch {
+    std::string text;
+    int marked = 0;  ///< which of those found Enter takes
 };
 
 struct Ui {
@@ -48,6 +55,8 @@ struct Ui {
     std::shared_ptr<const CustomCode> run;  ///< code that the user accepts, for whoever draws the panels
     bool hand_in = false;                   ///< for a frame: what is being typed is about to be saved
     bool edit_code = false;  ///< the code panel shows the custom code of the selected node, when there is
+    KindSearch kind_search;
+    SceneAudit audit;
 };
 
 /// Whether there is nothing to be seen of the node because its code comes from elsewhere.
@@ -70,6 +79,9 @@ void tooltip(const Ui& ui, std::string_view text, std::string_view hint = {});
 
 /// The sign of a node's role: disc, two discs, four dots or a ring.
 void draw_icon(const Ui& ui, Role role, ImVec2 centre);
+
+/// The sign that something is likely to be wrong.
+void draw_warning(const Ui& ui, ImVec2 centre);
 
 /// A bar to drag between panels, at `low` and of `extent`; upright when taller than wide. Returns how far it was moved.
 float splitter(Ui& ui, const char* id, ImVec2 low, ImVec2 extent);

@@ -1,0 +1,279 @@
+#include "sdf/audit.h"
+
+#include "sdf/evaluate.h"
+#include "sdf/slope_search.h"
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <unordered_map>
+
+namespace farfield {
+namespace {
+
+using glm::vec3;
+
+constexpr int fewest_samples = 50;        // fewer pairs tell nothing
+constexpr float furthest = 1e4f;          // metres; beyond, neighbouring floats are a millimetre apart
+constexpr float most_relative = 1.0001f;  // of a slope, for what `rounding` below does not cover
+
+std::string text(vec3 p) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x, p.y, p.z); }
+
+bool stopped(const AuditOptions& options) { return options.stop && *options.stop; }
+
+bool all_exact(const FieldNode& node) { return node.kind->role == Role::primitive && node.kind->exact; }
+
+/// Whether copies in it are cut where their cells meet: what is solid may end there in the middle of a step.
+bool has_cut_copies(const FieldTree& tree, const FieldNode& node) {
+    const KindInfo& kind = *node.kind;
+    if (kind.role == Role::instance) return has_cut_copies(tree, tree.definitions[node.definition]);
+    if (kind.role == Role::repeat && kind.warnings &&
+        !kind.warnings(content_extent(node), node.children.size(), node.values).empty())
+        return true;
+    return std::any_of(node.children.begin(), node.children.end(),
+                       [&](const FieldNode& child) { return has_cut_copies(tree, child); });
+}
+
+/// Whether values may jump at the planes between the cells of a repetition in it.
+bool may_jump(const FieldTree& tree, const FieldNode& node) {
+    if (node.kind->role == Role::instance) return may_jump(tree, tree.definitions[node.definition]);
+    if (node.kind->role == Role::repeat && !std::all_of(node.children.begin(), node.children.end(), all_exact))
+        return true;
+    return has_cut_copies(tree, node) || std::any_of(node.children.begin(), node.children.end(),
+                                                     [&](const FieldNode& child) { return may_jump(tree, child); });
+}
+
+/// Evaluations of nodes that one of this one takes.
+double cost(const FieldTree& tree, const FieldNode& node) {
+    double below = 0.0;
+    for (const FieldNode& child : node.children) below += cost(tree, child);
+    if (node.kind->role == Role::instance) below += cost(tree, tree.definitions[node.definition]);
+    return 1.0 + below * (node.kind->cells ? node.kind->cells(node.values) : 1);
+}
+
+std::string lower_case(std::string text) {
+    if (!text.empty()) text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
+    return text;
+}
+
+std::string origin(const FieldTree& tree, const FieldNode& node) {
+    const KindInfo& kind = *node.kind;
+    switch (kind.role) {
+        case Role::instance:
+            return "as its definition";
+        case Role::primitive:
+            if (node.code) return "as its code declares";
+            return kind.exact ? "exact distance" : "a bound that is 1-Lipschitz";
+        case Role::combine:
+            return lower_case(kind.label) + " of 1-Lipschitz children";
+        case Role::repeat:
+            return may_jump(tree, node)
+                       ? "the nearest of its copies; may jump where their cells meet, and is a bound there"
+                       : "the nearest of 1-Lipschitz copies";
+        default:
+            if (kind.explain) return kind.explain(node.values);
+            return kind.domain ? "moves points no further apart: as 1-Lipschitz as its content"
+                               : "shifts the distance: as 1-Lipschitz as its content";
+    }
+}
+
+/// The part of a box that has an end, around the origin along the other axes.
+Box finite(const Box& box) {
+    float half = 1.0f;
+    for (int axis = 0; axis < 3; ++axis)
+        if (box.is_bounded(axis)) half = std::max(half, 0.5f * box.size()[axis]);
+    Box result = box;
+    for (int axis = 0; axis < 3; ++axis) {
+        if (box.is_bounded(axis)) continue;
+        // A half-space ends on one side: around that.
+        const bool low = std::abs(box.low[axis]) < 0.5f * unbounded, high = std::abs(box.high[axis]) < 0.5f * unbounded;
+        const float middle = low ? box.low[axis] : high ? box.high[axis] : 0.0f;
+        result.low[axis] = middle - half, result.high[axis] = middle + half;
+    }
+    return result;
+}
+
+class Auditor {
+public:
+    Auditor(const Scene& scene, const AuditOptions& options) : scene_(scene), field_(scene), options_(options) {
+        if (tree_.root) remember(*tree_.root);
+        for (const FieldNode& definition : tree_.definitions) remember(definition);
+        const double nodes = std::max<double>(1.0, static_cast<double>(parts_.size()));
+        share_ = options.most_evaluations / nodes;
+        visit(scene.root, 0);
+        for (const Node& definition : scene.definitions) visit(definition, 0);
+        far_away();
+        std::unordered_map<Id, std::size_t> order;
+        for (const NodeAudit& node : audit_.nodes) order.emplace(node.id, order.size());
+        std::stable_sort(audit_.findings.begin(), audit_.findings.end(),
+                         [&](const Finding& a, const Finding& b) { return order[a.node] < order[b.node]; });
+    }
+
+    Audit result() && { return std::move(audit_); }
+
+private:
+    void remember(const FieldNode& node) {
+        parts_.try_emplace(node.id, &node);
+        for (const FieldNode& child : node.children) remember(child);
+    }
+
+    void find(Id node, std::string message) { audit_.findings.push_back({node, std::move(message)}); }
+
+    void visit(const Node& node, int depth) {
+        const auto found = parts_.find(node.id);
+        const FieldNode* part = found == parts_.end() ? nullptr : found->second;
+        NodeAudit& entry = audit_.nodes.emplace_back(NodeAudit{node.id,
+                                                               &info(node.kind),
+                                                               depth,
+                                                               part != nullptr,
+                                                               Box{vec3(0.0f), vec3(0.0f)},
+                                                               Box{vec3(0.0f), vec3(0.0f)},
+                                                               1.0f,
+                                                               "",
+                                                               0,
+                                                               0.0f,
+                                                               {}});
+        if (part) {
+            entry.region = part->region;
+            entry.world = world_bounds(tree_, node.id).value_or(entry.region);
+            entry.stretch = part->stretch();
+            entry.origin = origin(tree_, *part);
+            by_numbers(*part);
+            by_trying(*part, entry);
+        } else {
+            entry.origin = "adds no shape";
+            nothing_shows(node);
+        }
+        for (const Node& child : node.children) visit(child, depth + 1);
+    }
+
+    /// Told of the nodes that are the reason, not of all that they are in.
+    void nothing_shows(const Node& node) {
+        if (node.children.empty())
+            find(node.id, "nothing is in it, so that it never shows");
+        else if (node.kind == NodeKind::subtract && is_empty(scene_, node.children[0]) && !is_empty_group(node))
+            find(node.id, "its first child holds no shape to subtract from, so that nothing of it shows");
+    }
+
+    bool is_empty_group(const Node& node) const {
+        return std::all_of(node.children.begin(), node.children.end(),
+                           [&](const Node& child) { return is_empty(scene_, child); });
+    }
+
+    void by_numbers(const FieldNode& node) {
+        const KindInfo& kind = *node.kind;
+        if (kind.warnings)
+            for (std::string& warning : kind.warnings(content_extent(node), node.children.size(), node.values))
+                find(node.id, std::move(warning));
+        if (kind.gather == Gather::all && kind.role == Role::combine) empty_intersection(node);
+    }
+
+    /// Of two children that are apart along some axis nothing is left.
+    void empty_intersection(const FieldNode& node) {
+        const float reach = node.kind->reach ? node.kind->reach(node.values) : 0.0f;
+        for (std::size_t i = 0; i < node.children.size(); ++i)
+            for (std::size_t k = 0; k < i; ++k) {
+                const Box a = node.children[k].extent.box.grown(reach), b = node.children[i].extent.box.grown(reach);
+                for (int axis = 0; axis < 3; ++axis) {
+                    const float gap = std::max(a.low[axis], b.low[axis]) - std::min(a.high[axis], b.high[axis]);
+                    if (gap <= 0.0f) continue;
+                    find(node.id, fmt::format("nothing is left of it: children {} and {} are {:.3g} m apart along {}",
+                                              k + 1, i + 1, gap, "xyz"[axis]));
+                    return;
+                }
+            }
+    }
+
+    void by_trying(const FieldNode& node, NodeAudit& entry) {
+        const double most = share_ / (5.0 * cost(tree_, node));
+        const int samples = static_cast<int>(std::min<double>(options_.samples, most));
+        if (samples < std::min(fewest_samples, options_.samples) || samples == 0 || stopped(options_)) return;
+
+        SlopeSearch search(finite(node.extent.box), options_.seed);
+        search.run(
+            samples, options_.stop, [&](vec3 p) { return field_.distance(node, p); }, [](vec3, vec3) { return true; });
+        entry.samples = search.tried();
+        entry.slope = search.steepest().slope;
+        if (search.not_finite())
+            return find(node.id,
+                        fmt::format("its value is not finite at {} of its parent's frame", text(*search.not_finite())));
+        if (has_cut_copies(tree_, node)) return;  // which has been told
+        const bool jumps = may_jump(tree_, node);
+        if (jumps ? search.unsafe().has_value() : entry.slope > most_relative) {
+            const SlopeSearch::Pair& pair = jumps ? *search.unsafe() : search.steepest();
+            find(node.id, fmt::format("steeper than promised: {:.6g} at {} and {:.6g} at {}, in its parent's frame, a "
+                                      "slope of {:.4g} where at most 1 is safe",
+                                      pair.fa, text(pair.a), pair.fb, text(pair.b), pair.slope));
+        }
+        if (!node.kind->stretch || jumps) return;
+
+        // Only where the content is: both images in what the children fill.
+        Box content = node.children[0].extent.box;
+        for (const FieldNode& child : node.children) content = content.united(child.extent.box);
+        const auto within = [&](vec3 p) {
+            if (!node.kind->domain) return true;
+            const vec3 image = node.kind->domain(p, node.values, 0);
+            return glm::clamp(p, node.region.low, node.region.high) == p &&
+                   glm::clamp(image, content.low, content.high) == image;
+        };
+        SlopeSearch unsafe(finite(node.region), options_.seed);
+        unsafe.run(
+            samples, options_.stop, [&](vec3 p) { return field_.unsafe_distance(node, p); },
+            [&](vec3 a, vec3 b) { return within(a) && within(b); });
+        entry.unsafe_slope = unsafe.steepest().slope;
+        if (*entry.unsafe_slope > most_relative * entry.stretch)
+            find(node.id,
+                 fmt::format("steeper than promised before it is made safe: a slope of {:.4g} between {} and "
+                             "{}, in its own frame, where {:.4g} was to be the most",
+                             *entry.unsafe_slope, text(unsafe.steepest().a), text(unsafe.steepest().b), entry.stretch));
+    }
+
+    void far_away() {
+        const NodeAudit* worst = nullptr;
+        float most = furthest;
+        for (const NodeAudit& node : audit_.nodes) {
+            if (!node.shows || node.kind->takes_children()) continue;
+            for (int axis = 0; axis < 3; ++axis) {
+                if (!node.world.is_bounded(axis)) continue;
+                const float reach = std::max(std::abs(node.world.low[axis]), std::abs(node.world.high[axis]));
+                if (reach > most) most = reach, worst = &node;
+            }
+        }
+        if (worst)
+            find(worst->id, fmt::format("reaches {:.3g} m from the origin; beyond {:g} m single precision is coarser "
+                                        "than a millimetre",
+                                        most, furthest));
+    }
+
+    const Scene& scene_;
+    FieldEvaluator field_;
+    const FieldTree& tree_ = field_.tree();
+    const AuditOptions& options_;
+    std::unordered_map<Id, const FieldNode*> parts_;
+    double share_ = 0.0;  ///< of the evaluations, for one node
+    Audit audit_;
+};
+
+}  // namespace
+
+const NodeAudit* Audit::find(Id node) const {
+    const auto it = std::find_if(nodes.begin(), nodes.end(), [&](const NodeAudit& n) { return n.id == node; });
+    return it == nodes.end() ? nullptr : &*it;
+}
+
+Audit audit(const Scene& scene, const AuditOptions& options) { return Auditor(scene, options).result(); }
+
+std::string size_text(const Box& box) {
+    std::array<std::string, 3> sides;
+    for (int axis = 0; axis < 3; ++axis)
+        sides[static_cast<std::size_t>(axis)] =
+            box.is_bounded(axis) ? fmt::format("{:.3g}", box.size()[axis]) : "no end";
+    return fmt::format("{} x {} x {} m", sides[0], sides[1], sides[2]);
+}
+
+}  // namespace farfield
