@@ -77,6 +77,7 @@ private:
     FarLightPass far_light_pass_;
     OcclusionPass occlusion_pass_;
     FilterPass filter_pass_;
+    WaveletPass wavelet_pass_;
     SynthesisPass synthesis_pass_;
     DisplayPass display_pass_;
     Batch batch_;
