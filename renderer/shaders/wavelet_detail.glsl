@@ -19,7 +19,8 @@ void main() {
     vec4 far = texelFetch(far_light, at, 0);
     vec4 near = texelFetch(near_light, at, 0);
     vec4 whole = far_sum[pixel];
-    float openness = openness_at(pixel);
+    // The pixel's own openness, as far as it has as many samples as the light: not right after the AO radius changed.
+    float openness = mix(far.w, openness_at(pixel), split_near_sum[pixel].w / max(whole.w, 1.0));
     vec3 light = level == 0 ? whole.rgb / max(whole.w, 1.0)
                             : near.rgb + (far.w > 0.0 ? openness / far.w * far.rgb : vec3(0.0));
     vec3 known = coarsest == 1 ? vec3(0.0) : texelFetch(coarser, at, 0).rgb;

@@ -17,9 +17,10 @@ void main() {
     vec4 near = split_near_sum[pixel];
     bool any_surface = geometry.w > 0.0 && whole.w > 0.0;
     vec3 mean = whole.rgb / max(whole.w, 1.0);
-    // Right after the AO radius changed all light counts as far.
+    // Right after the AO radius changed all light counts as far. The near light is the rest, so that their sum is the mean
+    // of all samples, also of those from before the change.
     far = near.w > 0.0 ? far / near.w : vec4(mean, any_surface ? 1.0 : 0.0);
-    near = near.w > 0.0 ? near / near.w : vec4(0.0);
+    near.rgb = mean - far.rgb;
     float spread = max(square_sum[pixel] / max(whole.w, 1.0) - dot(mean, mean) / 3.0, 0.0);
     vec2 q = (vec2(at) + 0.5) / vec2(image_size) * 2.0 - 1.0;
     float slant = length(camera_forward + q.x * camera_right - q.y * camera_up);
