@@ -1,6 +1,7 @@
 // From the accumulators and the filtered far light to the chosen view, linear. The paper's synthesis: direct light by
 // Phong plus albedo x ambient occlusion x filtered far light ("ambient occlusion whose ambient colour is the filtered
-// light"). Its product counts near occlusion twice; the reference method uses what was accumulated as it is.
+// light"). Its product counts near occlusion twice; the reference method uses what was accumulated as it is, and
+// farfield the estimate of the wavelet passes (METHOD.md).
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 0) uniform sampler2D filtered_light;  // premultiplied by w

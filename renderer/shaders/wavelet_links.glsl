@@ -13,7 +13,8 @@ float neighbours(vec4 here, vec3 position, ivec2 tap) {
     vec4 there = texelFetch(guide, tap, 0);
     vec3 other = position_at(tap, there.w);
     // The fourth root: bent surfaces hang together, only breaks cut.
-    return sqrt(sqrt(min(same_surface(here, position, there, other), same_surface(there, other, here, position))));
+    return sqrt(sqrt(min(same_surface(here, position, there, other),
+                         same_surface(there, other, here, position))));
 }
 
 void main() {
@@ -24,9 +25,11 @@ void main() {
         vec4 here = texelFetch(guide, at, 0);
         vec3 position = position_at(at, here.w);
         ivec2 last = image_size - 1;
-        link = vec2(neighbours(here, position, min(at + ivec2(1, 0), last)), neighbours(here, position, min(at + ivec2(0, 1), last)));
+        link = vec2(neighbours(here, position, min(at + ivec2(1, 0), last)),
+                    neighbours(here, position, min(at + ivec2(0, 1), last)));
     } else {
-        ivec2 right = min(at + ivec2(stride / 2, 0), image_size - 1), below = min(at + ivec2(0, stride / 2), image_size - 1);
+        ivec2 right = min(at + ivec2(stride / 2, 0), image_size - 1);
+        ivec2 below = min(at + ivec2(0, stride / 2), image_size - 1);
         link = min(texelFetch(finer, at, 0).rg, vec2(texelFetch(finer, right, 0).r, texelFetch(finer, below, 0).g));
     }
     imageStore(links, at, vec4(link, 0.0, 0.0));

@@ -22,7 +22,7 @@ void main() {
     float share = level == 0 ? 0.79 : 0.5;
     vec4 here = texelFetch(guide, at, 0);
     vec3 position = position_at(at, here.w);
-    float energy = 0.0, noise = 0.0, total = 0.0;
+    float energy = 0.0, noise = 0.0;
     int stride = 1 << level;
     for (int y = -2; y <= 2; ++y)
         for (int x = -2 + (y & 1); x <= 2; x += 2) {
@@ -33,9 +33,8 @@ void main() {
             vec4 d = texelFetch(detail, tap, 0);
             energy += weight * dot(d.rgb, d.rgb) / 3.0;
             noise += weight * share * d.w;
-            total += weight;
         }
-    float bias = max(energy - 1.25 * noise, 0.0);
+    float bias = max(energy - 1.25 * noise, 0.0);  // k: measured, see METHOD.md
     float alpha = bias > 0.0 ? bias / (bias + noise) : 0.0;
     imageStore(estimate, at, vec4(texelFetch(coarser, at, 0).rgb + alpha * own.rgb, 1.0));
 }
