@@ -56,13 +56,20 @@ constexpr unsigned occlusion_stream = 100;  // apart from the bounces' streams 0
 Targets::Targets(glm::ivec2 s)
     : size(s), mips("far light mips", GL_RGBA32F, s, mip_levels(s)), view("view", GL_RGBA32F, s) {
     surfaces.resize(pixels() * surface_bytes);
-    for (gl::Buffer* sum : {&direct, &geometry, &reflectance, &far_light, &indirect, &occlusion})
+    for (gl::Buffer* sum :
+         {&direct, &geometry, &reflectance, &far_light, &indirect, &occlusion, &split_far, &split_near})
         sum->resize(pixels() * sum_bytes);
+    squares.resize(pixels() * square_bytes);
     clear();
 }
 
 void Targets::clear() {
-    for (gl::Buffer* sum : {&direct, &geometry, &reflectance, &far_light, &indirect, &occlusion}) sum->clear();
+    for (gl::Buffer* sum : {&direct, &geometry, &reflectance, &far_light, &indirect, &squares}) sum->clear();
+    clear_ao_radius();
+}
+
+void Targets::clear_ao_radius() {
+    for (gl::Buffer* sum : {&occlusion, &split_far, &split_near}) sum->clear();
 }
 
 void Targets::bind() const {
@@ -73,6 +80,9 @@ void Targets::bind() const {
     far_light.bind_storage(binding::far_light);
     indirect.bind_storage(binding::indirect);
     occlusion.bind_storage(binding::occlusion);
+    split_far.bind_storage(binding::split_far);
+    split_near.bind_storage(binding::split_near);
+    squares.bind_storage(binding::squares);
 }
 
 Batch::Batch() {
@@ -109,7 +119,7 @@ void DirectPass::run(const Work& work) const {
     }
 }
 
-void FarLightPass::run(const Work& work, unsigned sample_index, int bounces) const {
+void FarLightPass::run(const Work& work, unsigned sample_index, int bounces, float near_radius) const {
     for (int bounce = 0; bounce < bounces; ++bounce) {
         // The first rays leave the camera's surfaces, later ones the paths' vertices, which every bounce overwrites.
         const bool first = bounce == 0;
@@ -119,6 +129,7 @@ void FarLightPass::run(const Work& work, unsigned sample_index, int bounces) con
         work.tracer.trace(work.count, true, work.counting);
         work.batch.vertices.bind_storage(binding::surfaces);
         bounce_.set("ray_count", static_cast<unsigned>(work.count));
+        bounce_.set("first_bounce", first ? 1 : 0);
         bounce_.run(work.count);
         for (int light = 0; light < work.light_count; ++light) {
             trace_shadow_rays(light_rays_, work, 0, light);
@@ -130,6 +141,7 @@ void FarLightPass::run(const Work& work, unsigned sample_index, int bounces) con
     work.targets.surfaces.bind_storage(binding::surfaces);
     gather_.set("ray_count", static_cast<unsigned>(work.count));
     gather_.set("first_pixel", static_cast<unsigned>(work.first_pixel));
+    gather_.set("near_radius", near_radius);
     gather_.run(work.count);
 }
 
@@ -162,9 +174,72 @@ const gl::Texture& FilterPass::run(Targets& targets, int blur_levels) const {
     return targets.blurred;
 }
 
-void SynthesisPass::run(const Targets& targets, const gl::Texture& filtered, int view, Method method,
-                        int frames) const {
+const gl::Texture& WaveletPass::run(Targets& targets, int blur_levels) const {
+    const glm::ivec2 size = targets.size;
+    const auto levels = static_cast<std::size_t>(std::max(blur_levels, 0));
+    const auto make = [&](gl::Texture& texture, const char* label, GLenum format = GL_RGBA32F) {
+        if (!texture) texture = gl::Texture(label, format, size);
+    };
+    make(targets.guide, "guide");
+    make(targets.detail, "detail");
+    for (gl::Texture& texture : targets.estimates) make(texture, "estimate");
+    targets.far_levels.resize(levels + 1);
+    targets.near_levels.resize(levels + 1);
+    targets.gain_levels.resize(levels + 1);
+    targets.link_levels.resize(levels + 1);
+    for (gl::Texture& texture : targets.far_levels) make(texture, "far level");
+    for (gl::Texture& texture : targets.near_levels) make(texture, "near level");
+    for (gl::Texture& texture : targets.gain_levels) make(texture, "noise gain", GL_R32F);
+    for (gl::Texture& texture : targets.link_levels) make(texture, "links", GL_RG32F);
+
+    targets.far_levels[0].bind_image(0, GL_WRITE_ONLY);
+    targets.near_levels[0].bind_image(1, GL_WRITE_ONLY);
+    targets.gain_levels[0].bind_image(2, GL_WRITE_ONLY);
+    targets.guide.bind_image(3, GL_WRITE_ONLY);
+    start_.run(size);
+    for (std::size_t i = 0; i < levels; ++i) {
+        targets.link_levels[i > 0 ? i - 1 : levels].bind(0);
+        targets.guide.bind(1);
+        targets.link_levels[i].bind_image(0, GL_WRITE_ONLY);
+        links_.set("stride", 1 << i);
+        links_.run(size);
+        targets.link_levels[i].bind(4);
+        targets.far_levels[i].bind(0);
+        targets.near_levels[i].bind(1);
+        targets.guide.bind(2);
+        targets.gain_levels[i].bind(3);
+        targets.gain_levels[i + 1].bind_image(2, GL_WRITE_ONLY);
+        targets.far_levels[i + 1].bind_image(0, GL_WRITE_ONLY);
+        targets.near_levels[i + 1].bind_image(1, GL_WRITE_ONLY);
+        smooth_.set("stride", 1 << i);
+        smooth_.run(size);
+    }
+    // From the coarsest level, taken as it is, to the unfiltered one.
+    for (std::size_t i = levels + 1; i-- > 0;) {
+        const gl::Texture& coarser = targets.estimates[(i + 1) % 2];
+        targets.far_levels[i].bind(0);
+        targets.near_levels[i].bind(1);
+        targets.gain_levels[i].bind(2);
+        coarser.bind(3);
+        targets.near_levels[levels].bind(4);
+        targets.detail.bind_image(0, GL_WRITE_ONLY);
+        detail_.set("level", static_cast<int>(i));
+        detail_.set("coarsest", i == levels ? 1 : 0);
+        detail_.run(size);
+        targets.detail.bind(0);
+        targets.guide.bind(2);
+        targets.estimates[i % 2].bind_image(0, GL_WRITE_ONLY);
+        shrink_.set("level", static_cast<int>(i));
+        shrink_.set("coarsest", i == levels ? 1 : 0);
+        shrink_.run(size);
+    }
+    return targets.estimates[0];
+}
+
+void SynthesisPass::run(const Targets& targets, const gl::Texture& filtered, const gl::Texture& estimate, int view,
+                        Method method, int frames) const {
     filtered.bind(0);
+    if (estimate) estimate.bind(1);
     targets.view.bind_image(0, GL_WRITE_ONLY);
     program_.set("view", view);
     program_.set("method", static_cast<int>(method));

@@ -6,19 +6,26 @@
 #include "renderer/trace_program.h"
 #include "sdf/scene.h"
 
+#include <vector>
+
 namespace farfield {
 
 /// Accumulators of one resolution; sums over frames, see shaders/common.glsl.
 struct Targets {
     explicit Targets(glm::ivec2 size);
-    void clear();  ///< everything: scene, camera or light transport changed
+    void clear();            ///< everything: scene, camera or light transport changed
+    void clear_ao_radius();  ///< what depends on the AO radius
     void bind() const;
     std::size_t pixels() const { return static_cast<std::size_t>(size.x) * size.y; }
 
     glm::ivec2 size;
     gl::Buffer surfaces{"surfaces"}, direct{"direct"}, geometry{"geometry"}, reflectance{"reflectance"},
-        far_light{"far light"}, indirect{"indirect"}, occlusion{"occlusion"};
+        far_light{"far light"}, indirect{"indirect"}, occlusion{"occlusion"}, split_far{"split far"},
+        split_near{"split near"}, squares{"squares"};
     gl::Texture mips, blurred, view;
+    std::vector<gl::Texture> far_levels, near_levels, gain_levels,
+        link_levels;  ///< of the wavelet; the first level is unfiltered
+    gl::Texture guide, detail, estimates[2];
 };
 
 /// Buffers for as many rays as one dispatch may have: bounded, so that memory does not grow with the picture and work
@@ -62,10 +69,11 @@ private:
     gl::Program rays_ = load_program("light_rays.glsl"), shade_ = load_program("direct.glsl");
 };
 
-/// One hemisphere ray per pixel, followed over the bounces, each vertex lit by every light.
+/// One hemisphere ray per pixel, followed over the bounces, each vertex lit by every light; accumulated whole and split
+/// by the near weight of `near_radius`, metres.
 class FarLightPass {
 public:
-    void run(const Work& work, unsigned sample_index, int bounces) const;
+    void run(const Work& work, unsigned sample_index, int bounces, float near_radius) const;
 
 private:
     gl::Program hemisphere_ = load_program("hemisphere.glsl"), bounce_ = load_program("bounce.glsl"),
@@ -93,10 +101,24 @@ private:
                 blur_ = load_program("filter_blur.glsl");
 };
 
+/// The consistent near/far estimate: à-trous wavelet and James-Stein shrinkage from coarse to fine; see METHOD.md.
+class WaveletPass {
+public:
+    /// Returns irradiance / pi, and leaves the coarsest far light in targets.far_levels.back().
+    const gl::Texture& run(Targets& targets, int blur_levels) const;
+
+private:
+    gl::Program start_ = load_program("wavelet_start.glsl"), links_ = load_program("wavelet_links.glsl"),
+                smooth_ = load_program("wavelet_smooth.glsl"), detail_ = load_program("wavelet_detail.glsl"),
+                shrink_ = load_program("wavelet_shrink.glsl");
+};
+
 /// Accumulators and filtered light to targets.view, linear.
 class SynthesisPass {
 public:
-    void run(const Targets& targets, const gl::Texture& filtered, int view, Method method, int frames) const;
+    /// `estimate` is used by Method::farfield only.
+    void run(const Targets& targets, const gl::Texture& filtered, const gl::Texture& estimate, int view, Method method,
+             int frames) const;
 
 private:
     gl::Program program_ = load_program("synthesis.glsl");

@@ -49,12 +49,14 @@ struct CounterRecord {
     std::uint32_t rays = 0, steps = 0, exhausted_rays = 0, unused = 0;
 };
 
-inline constexpr std::size_t ray_bytes = 32, hit_bytes = 16, surface_bytes = 32, path_bytes = 32, sum_bytes = 16;
+inline constexpr std::size_t ray_bytes = 32, hit_bytes = 16, surface_bytes = 32, path_bytes = 32, sum_bytes = 16,
+                             square_bytes = 4;
 
 /// Binding points of storage buffers, and of uniform buffers.
 namespace binding {
 inline constexpr unsigned rays = 0, hits = 1, surfaces = 2, paths = 3, materials = 4, lights = 5, direct = 6,
-                          geometry = 7, reflectance = 8, far_light = 9, indirect = 10, occlusion = 11, counters = 12;
+                          geometry = 7, reflectance = 8, far_light = 9, indirect = 10, occlusion = 11, counters = 12,
+                          split_far = 13, split_near = 14, squares = 15;
 inline constexpr unsigned frame = 0, parameters = 1;  // of uniform buffers
 }  // namespace binding
 

@@ -23,7 +23,7 @@ constexpr auto rest = std::chrono::milliseconds(250);
 constexpr double interactive_milliseconds = 80.0, first_milliseconds = 40.0;
 /// What one step may take, so that an edit is seen soon.
 constexpr double step_milliseconds = 25.0;
-/// A picture of an unfinished frame is shown after so long.
+/// A picture of an unfinished frame is shown after so long, and no sooner than three times what showing takes.
 constexpr auto longest_wait = std::chrono::milliseconds(150);
 /// Scenes with more nodes get no program with every number live: its compilation takes seconds on llvmpipe (27 nodes
 /// 0.8 s, 43 nodes 1.6 s). They rely on the program with the selected node live.
@@ -60,6 +60,7 @@ struct RenderThread::State {
     RenderRequest current;
     FrameOptions options;
     Clock::time_point request_time, shown_time;
+    Clock::duration show_time{};                   ///< what the last picture took to filter and draw
     std::optional<Clock::time_point> unseen_edit;  ///< its scene has not been shown yet
     std::uint64_t serial = 0;
     double milliseconds_per_pixel_sample = 0.0;  ///< measured on the last frame; 0: not yet
@@ -256,7 +257,8 @@ void RenderThread::State::work() {
             unshown = true;
         }
     }
-    const bool late = renderer->statistics().samples != shown_samples && Clock::now() - shown_time > longest_wait;
+    const bool late = renderer->statistics().samples != shown_samples &&
+                      Clock::now() - shown_time > std::max<Clock::duration>(longest_wait, 3 * show_time);
     if (!renderer->displayable() || !(unshown || late)) return;
     show();
     if (preview && renderer->statistics().frames > 0) {
@@ -276,6 +278,7 @@ void RenderThread::State::show() {
     Slot& slot = slots[static_cast<std::size_t>(free)];
     if (!slot.texture || slot.texture.size() != renderer->size())
         slot.texture = gl::Texture("picture", GL_RGBA8, renderer->size());
+    const Clock::time_point start = Clock::now();
     renderer->display(slot.texture);
     if (slot.fence) glDeleteSync(slot.fence);
     slot.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -284,6 +287,7 @@ void RenderThread::State::show() {
     slot.picture.size = renderer->size();
     slot.picture.serial = ++serial;
     shown_time = Clock::now();
+    show_time = shown_time - start;
     const std::lock_guard lock(mutex);
     ready = free;
     statistics.samples = shown_samples;

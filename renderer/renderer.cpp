@@ -116,7 +116,7 @@ bool Renderer::update(const Scene& scene, const FrameOptions& options) {
         lights_.upload(std::span(lights));
         discard();
     } else if (new_occlusion) {
-        targets_->occlusion.clear();
+        targets_->clear_ao_radius();
         occlusion_samples_ = 0;
     }
     return changed;
@@ -175,7 +175,7 @@ bool Renderer::step() {
     } else {
         {
             Timers::Scope scope(timers_, "far light");
-            far_light_pass_.run(w, far_samples_, scene_.settings.bounces);
+            far_light_pass_.run(w, far_samples_, scene_.settings.bounces, scene_.settings.ao_radius);
         }
         Timers::Scope scope(timers_, "ambient occlusion");
         for (unsigned ray = 0; ray < occlusion_rays(); ++ray)
@@ -221,8 +221,13 @@ void Renderer::render_frame() {
 void Renderer::synthesise(View view) {
     frame_.bind_uniform(binding::frame);
     targets_->bind();
-    const gl::Texture& filtered = filter_pass_.run(*targets_, scene_.settings.blur_levels);
-    synthesis_pass_.run(*targets_, filtered, static_cast<int>(view), scene_.settings.method, completed_cameras_);
+    const Settings& settings = scene_.settings;
+    const bool split = settings.method == Method::farfield;
+    if (split) wavelet_pass_.run(*targets_, settings.blur_levels);
+    const gl::Texture& filtered =
+        split ? targets_->far_levels.back() : filter_pass_.run(*targets_, settings.blur_levels);
+    synthesis_pass_.run(*targets_, filtered, targets_->estimates[0], static_cast<int>(view), settings.method,
+                        completed_cameras_);
 }
 
 void Renderer::display(const gl::Texture& output) {

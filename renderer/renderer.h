@@ -1,6 +1,7 @@
 // Scene and settings to picture, progressively: every frame adds samples to the accumulators until the scene, the
 // camera or the light transport changes. Blur levels, exposure, view and method never discard what was accumulated;
-// another AO radius discards the ambient occlusion alone, because the far light does not depend on it.
+// another AO radius discards the ambient occlusion and the split of far light alone, because its sum does not depend on
+// it.
 //
 // Work comes in bounded steps, so that a caller can drop it as soon as an edit makes it stale.
 #pragma once
@@ -77,6 +78,7 @@ private:
     FarLightPass far_light_pass_;
     OcclusionPass occlusion_pass_;
     FilterPass filter_pass_;
+    WaveletPass wavelet_pass_;
     SynthesisPass synthesis_pass_;
     DisplayPass display_pass_;
     Batch batch_;

@@ -18,15 +18,15 @@ struct ViewInfo {
 };
 
 inline constexpr ViewInfo view_table[] = {
-    {View::result, "result", "Result", "Direct light plus albedo x ambient occlusion x filtered far light"},
+    {View::result, "result", "Result", "Direct light plus indirect light as the method makes it"},
     {View::direct, "direct", "Direct light", "Emission, Lambert and Phong reflection of the lights, with hard shadows"},
     {View::coarse, "coarse", "Coarse far light", "Monte-Carlo far light as accumulated, on a white surface"},
     {View::filtered, "filtered", "Filtered far light",
-     "Far light after the mip chain and the blur, on a white surface"},
+     "Far light as the method averages it, on a white surface that nothing near occludes"},
     {View::direct_filtered, "direct+filtered", "Direct + filtered",
      "Direct light plus albedo x filtered far light, without ambient occlusion"},
     {View::occlusion, "occlusion", "Ambient occlusion",
-     "The fraction of short hemisphere rays that leave the AO radius"},
+     "The fraction of hemisphere rays that leave the AO radius; in farfield what is met counts less the farther it is"},
     {View::normals, "normals", "Normals", "World-space normals, each component from -1..1 to 0..1"},
     {View::depth, "depth", "Depth", "Distance from the camera in metres; the display maps it to near white, far black"},
     {View::steps, "steps", "Step count",

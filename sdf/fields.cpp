@@ -34,7 +34,7 @@ Field<T> field(Parameter parameter) {
 }
 
 constexpr float big = largest_value;
-constexpr const char* method_names[] = {"paper", "reference"};
+constexpr const char* method_names[] = {"paper", "farfield", "reference"};
 using P = ParameterType;
 
 }  // namespace
@@ -98,18 +98,21 @@ std::span<const Field<Camera>> fields<Camera>() {
 template <>
 std::span<const Field<Settings>> fields<Settings>() {
     static const std::vector<Field<Settings>> table = {
-        field<&Settings::method>({"method",
-                                  "paper: filtered far light x ambient occlusion. reference: unfiltered path tracing",
-                                  P::choice,
-                                  Unit::none,
-                                  0.0f,
-                                  1.0f,
-                                  {},
-                                  method_names}),
+        field<&Settings::method>(
+            {"method",
+             "farfield: far light filtered apart from near light, right in the limit. paper: filtered far "
+             "light x ambient occlusion. reference: unfiltered path tracing",
+             P::choice,
+             Unit::none,
+             0.0f,
+             2.0f,
+             {},
+             method_names}),
         field<&Settings::samples>(
             {"samples", "Hemisphere rays per pixel and frame", P::integer, Unit::none, 1.0f, 64.0f}),
         field<&Settings::bounces>({"bounces", "Diffuse bounces of far light", P::integer, Unit::none, 1.0f, 8.0f}),
-        field<&Settings::blur_levels>({"blur_levels", "Mip level at which far light is blurred; 0 leaves it as it is",
+        field<&Settings::blur_levels>({"blur_levels",
+                                       "How far far light is averaged, doubling with each level; 0 leaves it as it is",
                                        P::integer, Unit::none, 0.0f, 8.0f}),
         field<&Settings::ao_radius>(
             {"ao_radius", "How far ambient occlusion looks", P::number, Unit::metres, 1e-3f, 1e3f}),

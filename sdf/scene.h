@@ -77,14 +77,14 @@ struct Camera {
     float field_of_view = 40.0f;  ///< vertical, degrees
 };
 
-enum class Method { paper, reference };
+enum class Method { paper, farfield, reference };
 
 /// How the scene is rendered; saved with it, because a good AO radius or exposure belongs to the scene.
 struct Settings {
-    Method method = Method::paper;
+    Method method = Method::farfield;
     int samples = 4;         ///< hemisphere rays per pixel and frame
     int bounces = 1;         ///< diffuse bounces of far light
-    int blur_levels = 3;     ///< mip level at which far light is blurred; 0 leaves it unfiltered
+    int blur_levels = 3;     ///< far light is averaged over about 2^levels pixels; 0 leaves it unfiltered
     float ao_radius = 0.5f;  ///< metres
     float exposure = 0.0f;   ///< stops: the picture is multiplied by 2^exposure
 };

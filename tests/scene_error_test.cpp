@@ -193,7 +193,7 @@ TEST(SceneFileError, OutOfRange) {
     expect_error("\"farfield\"", "\"$schema\": 1,\n\"farfield\"", 2, "$schema",
                  "found 1, expected a text, where the format's JSON Schema is");
     expect_error("\"camera\"", "\"settings\": {\"method\": \"papr\"},\n\"camera\"", 3, "settings/method",
-                 "found \"papr\", expected one of paper, reference (perhaps paper)");
+                 "found \"papr\", expected one of paper, farfield, reference (perhaps paper)");
     expect_error("\"root\"", "\"lights\": {\"sun\": {\"kind\": \"directional\",\n\"direction\": [0, 0, 0]}},\n\"root\"",
                  13, "lights/sun/direction", "found a vector of length 0, expected a direction");
 }

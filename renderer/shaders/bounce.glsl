@@ -3,6 +3,7 @@
 layout(local_size_x = 64) in;
 
 uniform uint ray_count;
+uniform int first_bounce;  // 1: the path's first ray
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
@@ -16,6 +17,7 @@ void main() {
             Material m = material_of(hit.material);
             vertex = Surface(ray.origin + hit.distance * ray.direction, hit.material, unpack_normal(hit.normal),
                              ray.footprint * hit.distance);
+            if (first_bounce == 1) path.first_hit = hit.distance;
             path.radiance += path.throughput * m.emission;
             path.throughput *= m.albedo;
         } else {

@@ -41,10 +41,12 @@ struct Surface {
     float epsilon;  // how far the position may be off, metres
 };
 
+const float no_hit = 1e30;
+
 // One path of far light: what its next vertex contributes is multiplied by the throughput.
 struct Path {
     vec3 throughput;
-    float unused0;
+    float first_hit;  // distance of the first vertex, metres; none when nothing was met or nothing traced yet
     vec3 radiance;
     float unused1;
 };
@@ -76,7 +78,24 @@ layout(std430, binding = 7) buffer Geometry { vec4 geometry_sum[]; };    // norm
 layout(std430, binding = 8) buffer Reflectance { vec4 albedo_sum[]; };   // albedo; w: steps of the camera ray
 layout(std430, binding = 9) buffer FarLight { vec4 far_sum[]; };         // irradiance / pi where there is a surface; w: samples
 layout(std430, binding = 10) buffer Indirect { vec4 indirect_sum[]; };   // albedo x irradiance / pi; w: samples, surface or not
-layout(std430, binding = 11) buffer Occlusion { vec4 occlusion_sum[]; }; // x: rays that left the AO radius, y: rays
+layout(std430, binding = 11) buffer Occlusion { vec4 occlusion_sum[]; }; // short rays; x: left the AO radius, y: all, z: sum of near weights
+// Far light split by the near weight of the AO radius; restarted with it, so they count their own samples.
+layout(std430, binding = 13) buffer SplitFar { vec4 split_far_sum[]; };   // (1 - w) radiance; w: 1 - w
+layout(std430, binding = 14) buffer SplitNear { vec4 split_near_sum[]; }; // w radiance; w: samples
+layout(std430, binding = 15) buffer Squares { float square_sum[]; };      // mean of the radiance's three squares; samples as far_sum
+
+// Near weight w of light that comes from distance t: 1 at 0, 0 from the AO radius on, and smooth.
+float near_weight(float t, float radius) {
+    float x = clamp(t / radius, 0.0, 1.0);
+    return (1.0 - x * x) * (1.0 - x * x);
+}
+
+// Openness A of a pixel: the mean of 1 - w over short and long rays.
+float openness_at(int pixel) {
+    vec4 short_rays = occlusion_sum[pixel];
+    float rays = short_rays.y + split_near_sum[pixel].w;
+    return rays > 0.0 ? (split_far_sum[pixel].w + short_rays.y - short_rays.z) / rays : 1.0;
+}
 
 // Octahedral map of the unit sphere (Meyer et al. 2010), 16 bits for each of two coordinates.
 uint pack_normal(vec3 n) {
@@ -156,4 +175,20 @@ vec3 cosine_direction(vec3 n, vec2 u) {
 vec3 leave(Surface s) {
     float spacing = max(abs(s.position.x), max(abs(s.position.y), abs(s.position.z))) * 1e-6;
     return s.position + s.normal * (2.0 * max(s.epsilon, max(1e-4, spacing)));
+}
+
+// Where the camera's surface of a pixel lies, from its distance along camera_forward.
+vec3 position_at(ivec2 pixel, float depth) {
+    vec2 q = (vec2(pixel) + 0.5) / vec2(image_size) * 2.0 - 1.0;
+    return camera_position + depth * (camera_forward + q.x * camera_right - q.y * camera_up);
+}
+
+// How far two pixels show the same surface, 0..1: the cosine of their normals to the 64th power times a Gaussian of the
+// second's distance from the first's tangent plane, two pixels wide. A guide holds normal and depth; 0 for no surface.
+float same_surface(vec4 guide, vec3 position, vec4 other_guide, vec3 other_position) {
+    float cosine = clamp(dot(guide.xyz, other_guide.xyz), 0.0, 1.0);
+    float c4 = cosine * cosine * cosine * cosine;
+    float c16 = c4 * c4 * c4 * c4;
+    float plane = dot(guide.xyz, other_position - position) / max(2.0 * pixel_angle * guide.w, 1e-20);
+    return guide.w > 0.0 && other_guide.w > 0.0 ? c16 * c16 * c16 * c16 * exp(-plane * plane) : 0.0;
 }

@@ -20,5 +20,5 @@ void main() {
     vec2 u = stratified == 1 ? sequence_sample(pixel, sample_index, stream) : independent_sample(pixel, sample_index, stream);
     vec3 direction = cosine_direction(s.normal, u);
     rays[i] = Ray(leave(s), any ? reach : 0.0, direction, 1e-3);
-    if (start_path == 1) paths[i] = Path(vec3(1.0), 0.0, vec3(0.0), 0.0);
+    if (start_path == 1) paths[i] = Path(vec3(1.0), no_hit, vec3(0.0), 0.0);
 }

@@ -1,9 +1,11 @@
 // From the accumulators and the filtered far light to the chosen view, linear. The paper's synthesis: direct light by
 // Phong plus albedo x ambient occlusion x filtered far light ("ambient occlusion whose ambient colour is the filtered
-// light"). Its product counts near occlusion twice; the reference method uses what was accumulated as it is.
+// light"). Its product counts near occlusion twice; the reference method uses what was accumulated as it is, and
+// farfield the estimate of the wavelet passes (METHOD.md).
 layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 0) uniform sampler2D filtered_light;  // premultiplied by w
+layout(binding = 1) uniform sampler2D estimate;
 layout(binding = 0, rgba32f) writeonly uniform image2D target;
 
 uniform int view;    // enum View of renderer/views.h
@@ -24,12 +26,17 @@ void main() {
     vec3 filtered = filtered4.w > 0.0 ? filtered4.rgb / filtered4.w : vec3(0.0);
     vec4 occlusion4 = occlusion_sum[pixel];
     float occlusion = occlusion4.y > 0.0 ? occlusion4.x / occlusion4.y : 1.0;
+    if (method == 1) occlusion = openness_at(pixel);
     vec4 indirect4 = indirect_sum[pixel];
     vec4 geometry = geometry_sum[pixel];
     float covered = geometry.w / frames;
 
     vec3 color = vec3(0.0);
-    if (view == 0) color = direct + (method == 0 ? albedo * occlusion * filtered : indirect4.rgb / max(indirect4.w, 1.0));
+    vec3 indirect = indirect4.rgb / max(indirect4.w, 1.0);
+    if (method == 0) indirect = albedo * occlusion * filtered;
+    // Where a pixel shows several materials the product of means is not the mean of products: the rest is added.
+    if (method == 1) indirect += albedo * texelFetch(estimate, at, 0).rgb - albedo * coarse;
+    if (view == 0) color = direct + indirect;
     if (view == 1) color = direct;
     if (view == 2) color = coarse * covered;
     if (view == 3) color = filtered * covered;
