@@ -61,6 +61,19 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
+bool render_frames(Renderer& renderer, int frames, Progress& progress) {
+    for (int i = 0; i < frames; ++i) {
+        do {
+            if (Progress::interrupted()) {
+                fmt::print(stderr, "\ninterrupted: nothing was written\n");
+                return false;
+            }
+        } while (!renderer.step());
+        progress.advance();
+    }
+    return true;
+}
+
 void check_output(const std::filesystem::path& file, std::initializer_list<std::string_view> extensions) {
     if (std::none_of(extensions.begin(), extensions.end(), [&](auto e) { return has_extension(file, e); }))
         throw std::invalid_argument(fmt::format("--output: \"{}\" given, expected a name that ends in {}",
@@ -124,15 +137,7 @@ int run_render(const RenderOptions& options) {
     frame.seed = options.seed;
     renderer.update(headless.scene, frame);
     Progress progress("rendering", options.frames);
-    for (int i = 0; i < options.frames; ++i) {
-        do {
-            if (Progress::interrupted()) {
-                fmt::print(stderr, "\ninterrupted: nothing was written\n");
-                return 1;
-            }
-        } while (!renderer.step());
-        progress.advance();
-    }
+    if (!render_frames(renderer, options.frames, progress)) return 1;
     write_outputs(renderer, options.outputs, options.view);
     return 0;
 }

@@ -18,12 +18,18 @@
 
 namespace farfield {
 
+class Progress;
+class Renderer;
+
 /// Throws std::invalid_argument for another extension (written in small letters) and ImageError where there is no such
 /// folder: before a long render, not after it.
 void check_output(const std::filesystem::path& file, std::initializer_list<std::string_view> extensions);
 
 /// What a setting is called on the command line: "--ao-radius" for "ao_radius".
 std::string option_name(std::string_view key);
+
+/// Accumulates so many frames; false, and says so, when the user interrupts.
+bool render_frames(Renderer& renderer, int frames, Progress& progress);
 
 /// Settings given on the command line; those not given are the scene's own.
 struct Overrides {

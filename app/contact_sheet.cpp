@@ -178,15 +178,7 @@ int run_contact_sheet(const ContactSheetOptions& options) {
         sheet.write(heading.text, heading.at, heading.width, layout.px(20), Sheet::Font::bold, Sheet::Align::left);
     for (const Layout::Tile& tile : layout.tiles) {
         renderer.update(sample_scene(*tile.kind, aspect), frame);
-        for (int i = 0; i < options.frames; ++i) {
-            do {
-                if (Progress::interrupted()) {
-                    fmt::print(stderr, "\ninterrupted: nothing was written\n");
-                    return 1;
-                }
-            } while (!renderer.step());
-            progress.advance();
-        }
+        if (!render_frames(renderer, options.frames, progress)) return 1;
         sheet.place(renderer.display_pixels(), options.tile, tile.at);
         sheet.write(tile.kind->label, tile.at + glm::ivec2(0, options.tile.y + layout.px(20)), options.tile.x,
                     layout.px(15), Sheet::Font::regular, Sheet::Align::centre);
