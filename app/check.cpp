@@ -84,7 +84,7 @@ void print_table(const std::vector<Row>& rows) {
 
 std::string range_text(const Box& box, int axis) {
     if (box.is_bounded(axis)) return fmt::format("{:.3g} to {:.3g}", box.low[axis], box.high[axis]);
-    const bool low = box.low[axis] > -0.5f * unbounded, high = box.high[axis] < 0.5f * unbounded;
+    const bool low = !is_unbounded(box.low[axis]), high = !is_unbounded(box.high[axis]);
     if (low) return fmt::format("from {:.3g}", box.low[axis]);
     return high ? fmt::format("up to {:.3g}", box.high[axis]) : "no end";
 }

@@ -91,7 +91,7 @@ Box finite(const Box& box) {
     for (int axis = 0; axis < 3; ++axis) {
         if (box.is_bounded(axis)) continue;
         // A half-space ends on one side: around that.
-        const bool low = std::abs(box.low[axis]) < 0.5f * unbounded, high = std::abs(box.high[axis]) < 0.5f * unbounded;
+        const bool low = !is_unbounded(box.low[axis]), high = !is_unbounded(box.high[axis]);
         const float middle = low ? box.low[axis] : high ? box.high[axis] : 0.0f;
         result.low[axis] = middle - half, result.high[axis] = middle + half;
     }

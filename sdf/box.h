@@ -11,6 +11,7 @@ namespace farfield {
 
 /// Coordinates of this size stand for infinity: finite, so that sums and products of them stay numbers.
 inline constexpr float unbounded = 1e9f;
+inline bool is_unbounded(float v) { return std::abs(v) > 0.5f * unbounded; }
 
 struct Box {
     glm::vec3 low{-unbounded};
@@ -19,7 +20,7 @@ struct Box {
     glm::vec3 centre() const { return 0.5f * (low + high); }
     glm::vec3 size() const { return high - low; }
     /// Whether the box ends on both sides of the axis.
-    bool is_bounded(int axis) const { return !is_far(low[axis]) && !is_far(high[axis]); }
+    bool is_bounded(int axis) const { return !is_unbounded(low[axis]) && !is_unbounded(high[axis]); }
     bool is_bounded() const { return is_bounded(0) && is_bounded(1) && is_bounded(2); }
 
     /// Further by r on every side; a box without extent where r is negative and larger than the box.
@@ -46,9 +47,8 @@ struct Box {
     }
 
 private:
-    static bool is_far(float v) { return std::abs(v) > 0.5f * unbounded; }
     static float along(float m, float v, float scale) {
-        return is_far(v) ? std::copysign(4.0f * unbounded, m * v) : m * scale * v;
+        return is_unbounded(v) ? std::copysign(4.0f * unbounded, m * v) : m * scale * v;
     }
 };
 

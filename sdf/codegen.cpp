@@ -128,7 +128,7 @@ public:
         if (tree.root) find_above(*tree.root);
     }
 
-    bool is_live(const FieldNode& n) const { return all_ || n.id == tuned_; }
+    bool is_live(const FieldNode& n) const { return all_ || (tuned_ != 0 && n.id == tuned_); }
     bool is_derived_live(const FieldNode& n) const { return all_ || nodes_above_tuned_.contains(n.id); }
 
     /// Index of the node's first value; both functions of the program share it.

@@ -86,7 +86,7 @@ Extent own_extent(const FieldNode& node, float level, Definitions& definitions) 
 /// A box's coordinates are rounded a few times on their way up; this is a hundred times that. Sides without end do not
 /// count: a half-space ends where it does.
 Box with_margin(const Box& box) {
-    const auto size = [](float v) { return std::abs(v) < 0.5f * unbounded ? std::abs(v) : 0.0f; };
+    const auto size = [](float v) { return is_unbounded(v) ? 0.0f : std::abs(v); };
     glm::vec3 margin;
     for (int axis = 0; axis < 3; ++axis) margin[axis] = 1e-5f * std::max(size(box.low[axis]), size(box.high[axis]));
     return Box{box.low - margin, box.high + margin}.valid();

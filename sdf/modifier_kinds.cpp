@@ -162,7 +162,7 @@ Warnings shell_warnings(const Extent&, std::size_t, Values v) {
 /// "twist: 110 °/m at up to 0.42 m from the axis".
 std::string turned_text(const char* kind, float rate, float from_axis) {
     const std::string text = fmt::format("{}: {:.3g} °/m", kind, std::abs(glm::degrees(rate)));
-    if (from_axis > 0.5f * unbounded) return text + ", and its content has no end away from the axis";
+    if (is_unbounded(from_axis)) return text + ", and its content has no end away from the axis";
     return text + fmt::format(" at up to {:.3g} m from the axis, from the bounds of its content", from_axis);
 }
 
@@ -309,7 +309,7 @@ void add_modifiers(std::vector<KindInfo>& t) {
     taper.stretch = [](Values v) { return shapes::taper_stretch(v[0].x, v[1].x, v[2].x); };
     taper.explain = [](Values v) {
         const std::string text = fmt::format("taper: {:.3g} times the width where narrowest", v[1].x);
-        if (v[2].x > 0.5f * unbounded) return text + ", and its content has no end away from the axis";
+        if (is_unbounded(v[2].x)) return text + ", and its content has no end away from the axis";
         return text + fmt::format(", {:.3g} /m at up to {:.3g} m from the axis, from the bounds of its content", v[0].x,
                                   v[2].x);
     };

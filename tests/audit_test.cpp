@@ -153,6 +153,7 @@ struct Case {
     const char* what;    ///< the message begins with or holds this
     const char* faulty;  ///< a node named "n"
     const char* faultless;
+    friend void PrintTo(const Case& c, std::ostream* out) { *out << c.what; }
 };
 
 class Finds : public testing::TestWithParam<Case> {};

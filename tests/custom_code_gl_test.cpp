@@ -1,9 +1,8 @@
 // Custom code on the GPU, as it is given to the driver, against its evaluation on the CPU.
-#include "renderer/context.h"
-#include "renderer/gl.h"
 #include "sdf/custom_code.h"
 #include "sdf/shape_library.h"
 #include "tests/custom_code_samples.h"
+#include "tests/gl_test.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -17,33 +16,15 @@ namespace {
 std::vector<float> gpu_values(const CustomCode& code, const std::vector<std::string>& arguments,
                               const std::vector<glm::vec4>& points) {
     const std::string text = code.glsl("7", arguments);
-    const gl::Program program("custom",
-                              "#version 430 core\nlayout(local_size_x = 64) in;\n#define PI 3.14159265358979\n"
-                              "layout(std430, binding = 0) readonly buffer Points { vec4 points[]; };\n"
-                              "layout(std430, binding = 1) writeonly buffer Results { float results[]; };\n"
-                              "layout(std430, binding = 2) readonly buffer P { float block[]; };\n"
-                              "float parameter(int i) { return block[i]; }\n"
-                              "vec3 parameter3(int i) { return vec3(block[i], block[i + 1], block[i + 2]); }\n" +
-                                  used_shapes(text) + text +
-                                  "void main() {\n"
-                                  "    uint i = gl_GlobalInvocationID.x;\n"
-                                  "    if (i < uint(points.length())) results[i] = sdf_7(points[i].xyz);\n"
-                                  "}\n");
-    gl::Buffer in("points"), out("results"), parameters("parameters");
-    in.upload(std::span(points));
-    out.resize(points.size() * sizeof(float));
     std::vector<float> block;
     for (const Parameter& parameter : code.parameters())
         for (int k = 0; k < 3; ++k) block.push_back(to_code_units(parameter, parameter.initial)[k]);
     block.push_back(0.0f);  // never empty
-    parameters.upload(std::span<const float>(block));
-    in.bind_storage(0);
-    out.bind_storage(1);
-    parameters.bind_storage(2);
-    program.run(points.size());
-    std::vector<float> results(points.size());
-    out.read(results.data(), results.size() * sizeof(float));
-    return results;
+    return farfield::gpu_values(
+        "#define PI 3.14159265358979\n"
+        "vec3 parameter3(int i) { return vec3(parameter(i), parameter(i + 1), parameter(i + 2)); }\n" +
+            used_shapes(text) + text,
+        "sdf_7", points, block);
 }
 
 struct Sample {
@@ -199,19 +180,15 @@ float sdf(vec3 p) {
 })"},
 };
 
-class CustomCodeOnGpu : public testing::Test {
+class CustomCodeOnGpu : public GlTest {
 protected:
     void SetUp() override {
-        context_ = make_headless_context(ContextKind::automatic);
-        context_->make_current();
+        GlTest::SetUp();
         std::mt19937 random(1);
         std::uniform_real_distribution<float> uniform(-4.0f, 4.0f);
         points_.resize(4'000);
         for (glm::vec4& p : points_) p = {uniform(random), uniform(random), uniform(random), 0.0f};
     }
-    void TearDown() override { context_->release(); }
-
-    std::unique_ptr<Context> context_;
     std::vector<glm::vec4> points_;
 };
 

@@ -1,10 +1,9 @@
 // The generated function on the GPU against the same shapes on the CPU.
-#include "renderer/context.h"
-#include "renderer/gl.h"
 #include "sdf/codegen.h"
 #include "sdf/edit.h"
 #include "sdf/evaluate.h"
 #include "sdf/scene_file.h"
+#include "tests/gl_test.h"
 #include "tests/test_support.h"
 
 #include <fmt/format.h>
@@ -14,35 +13,6 @@
 
 namespace farfield {
 namespace {
-
-/// Distances at `points` by the generated code alone: nothing but it, its parameters and a loop.
-std::vector<float> gpu_distances(const Scene& scene, Tier tier, const std::vector<glm::vec4>& points) {
-    const GeneratedScene generated = generate(scene, tier);
-    std::string source = "#version 430 core\nlayout(local_size_x = 64) in;\n";
-    if (!generated.parameters.empty())
-        source +=
-            "layout(std430, binding = 2) readonly buffer P { float block[]; };\nfloat parameter(int i) { return "
-            "block[i]; }\n";
-    source += generated.text +
-              "layout(std430, binding = 0) readonly buffer Points { vec4 points[]; };\n"
-              "layout(std430, binding = 1) writeonly buffer Results { float results[]; };\n"
-              "void main() {\n"
-              "    uint i = gl_GlobalInvocationID.x;\n"
-              "    if (i < uint(points.length())) results[i] = scene_distance(points[i].xyz);\n"
-              "}\n";
-    const gl::Program program("distances", source);
-    gl::Buffer in("points"), out("results"), parameters("parameters");
-    in.upload(std::span(points));
-    out.resize(points.size() * sizeof(float));
-    parameters.upload(std::span(generated.parameters));
-    in.bind_storage(0);
-    out.bind_storage(1);
-    parameters.bind_storage(2);
-    program.run(points.size());
-    std::vector<float> results(points.size());
-    out.read(results.data(), results.size() * sizeof(float));
-    return results;
-}
 
 /// The largest difference relative to the size of the numbers involved: coordinates are subtracted from points, so
 /// float rounding is relative to the coordinates, not to the distance.
@@ -54,7 +24,8 @@ void expect_agreement(const Scene& scene, unsigned seed, const std::string& name
     const FieldEvaluator field(scene);
     for (const Tier tier : {Tier::specialised, Tier::live}) {
         if (tier == Tier::live && expanded_node_count(scene) > 32) continue;  // takes seconds, and is never made
-        const std::vector<float> gpu = gpu_distances(scene, tier, points);
+        const GeneratedScene generated = generate(scene, tier);
+        const std::vector<float> gpu = gpu_values(generated.text, "scene_distance", points, generated.parameters);
         double worst = 0.0;
         for (std::size_t i = 0; i < points.size(); ++i) {
             const glm::vec3 p(points[i]);
@@ -66,15 +37,7 @@ void expect_agreement(const Scene& scene, unsigned seed, const std::string& name
     }
 }
 
-class FieldOnGpu : public testing::Test {
-protected:
-    void SetUp() override {
-        context_ = make_headless_context(ContextKind::automatic);
-        context_->make_current();
-    }
-    void TearDown() override { context_->release(); }
-    std::unique_ptr<Context> context_;
-};
+using FieldOnGpu = GlTest;
 
 TEST_F(FieldOnGpu, AgreesWithTheCpuOnBundledScenes) {
     for (const auto& file : bundled_scenes()) expect_agreement(load_scene(file), 1, file.filename().string());

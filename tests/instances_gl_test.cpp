@@ -4,6 +4,7 @@
 #include "renderer/trace_program.h"
 #include "sdf/codegen.h"
 #include "sdf/edit.h"
+#include "tests/gl_test.h"
 #include "tests/test_support.h"
 
 #include <fmt/format.h>
@@ -15,15 +16,7 @@
 namespace farfield {
 namespace {
 
-class InstancesOnGpu : public testing::Test {
-protected:
-    void SetUp() override {
-        context_ = make_headless_context(ContextKind::automatic);
-        context_->make_current();
-    }
-    void TearDown() override { context_->release(); }
-    std::unique_ptr<Context> context_;
-};
+using InstancesOnGpu = GlTest;
 
 /// Two kinds of pieces on a floor, one of them made of the other, with materials of their own and of the instances.
 Scene pieces() {

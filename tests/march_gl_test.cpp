@@ -1,10 +1,10 @@
 // The tracer with its safe steps against a march in steps of 1e-4 m that looks at nothing but the field's sign.
-#include "renderer/context.h"
 #include "renderer/records.h"
 #include "renderer/trace_program.h"
 #include "sdf/codegen.h"
 #include "sdf/edit.h"
 #include "sdf/evaluate.h"
+#include "tests/gl_test.h"
 #include "tests/test_support.h"
 
 #include <fmt/format.h>
@@ -127,14 +127,8 @@ bool is_at_surface(const FieldEvaluator& field, glm::vec3 p, std::mt19937& rando
     return false;
 }
 
-class March : public testing::Test {
+class March : public GlTest {
 protected:
-    void SetUp() override {
-        context_ = make_headless_context(ContextKind::automatic);
-        context_->make_current();
-    }
-    void TearDown() override { context_->release(); }
-
     /// `node` over a beam and a ball, which lie off all axes and symmetries.
     void expect_no_difference(Node node, const std::string& name) {
         Node beam = make_node(NodeKind::box), ball = make_node(NodeKind::sphere);
@@ -167,7 +161,6 @@ protected:
         EXPECT_EQ(holes, 0) << name << ": rays went through the surface, of " << hits << " that meet it";
         EXPECT_EQ(early, 0) << name << ": rays met a surface that is not there, of " << rays.size();
     }
-    std::unique_ptr<Context> context_;
 };
 
 TEST_F(March, FindsWhatTinyStepsFind) {

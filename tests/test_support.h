@@ -12,6 +12,9 @@
 
 namespace farfield {
 
+/// Test names say the kind, not its bytes.
+inline void PrintTo(NodeKind kind, std::ostream* out) { *out << info(kind).key; }
+
 /// The scene files in scenes/, sorted by name.
 std::vector<std::filesystem::path> bundled_scenes();
 
