@@ -28,24 +28,14 @@ bool stopped(const AuditOptions& options) { return options.stop && *options.stop
 
 bool all_exact(const FieldNode& node) { return node.kind->role == Role::primitive && node.kind->exact; }
 
-/// Whether copies in it are cut where their cells meet: what is solid may end there in the middle of a step.
-bool has_cut_copies(const FieldTree& tree, const FieldNode& node) {
-    const KindInfo& kind = *node.kind;
-    if (kind.role == Role::instance) return has_cut_copies(tree, tree.definitions[node.definition]);
-    if (kind.role == Role::repeat && kind.warnings &&
-        !kind.warnings(content_extent(node), node.children.size(), node.values).empty())
-        return true;
-    return std::any_of(node.children.begin(), node.children.end(),
-                       [&](const FieldNode& child) { return has_cut_copies(tree, child); });
-}
-
 /// Whether values may jump at the planes between the cells of a repetition in it.
 bool may_jump(const FieldTree& tree, const FieldNode& node) {
     if (node.kind->role == Role::instance) return may_jump(tree, tree.definitions[node.definition]);
-    if (node.kind->role == Role::repeat && !std::all_of(node.children.begin(), node.children.end(), all_exact))
+    if (node.kind->role == Role::repeat &&
+        (node.cut || !std::all_of(node.children.begin(), node.children.end(), all_exact)))
         return true;
-    return has_cut_copies(tree, node) || std::any_of(node.children.begin(), node.children.end(),
-                                                     [&](const FieldNode& child) { return may_jump(tree, child); });
+    return std::any_of(node.children.begin(), node.children.end(),
+                       [&](const FieldNode& child) { return may_jump(tree, child); });
 }
 
 /// Evaluations of nodes that one of this one takes.
@@ -202,7 +192,6 @@ private:
         if (search.not_finite())
             return find(node.id,
                         fmt::format("its value is not finite at {} of its parent's frame", text(*search.not_finite())));
-        if (has_cut_copies(tree_, node)) return;  // which has been told
         const bool jumps = may_jump(tree_, node);
         if (jumps ? search.unsafe().has_value() : entry.slope > most_relative) {
             const SlopeSearch::Pair& pair = jumps ? *search.unsafe() : search.steepest();

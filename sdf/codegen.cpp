@@ -530,6 +530,7 @@ private:
                           material_of = fmt::format("material_of_copy{}", copy_id);
         Lines body{names_};
         const Result copy = fold(n, num, "p", id, body, "    ");
+        if (n.cut) set(copy, fmt::format("{}({}, p{})", kind.cut, copy.distance, args), n, body, "    ");
         const bool materials = copy.varies;
         if (!with_material_ || materials) {
             functions_.add(with_material_ ? fmt::format("uint {}(vec3 p{}) {{", material_of,

@@ -51,7 +51,9 @@ FieldEvaluator::Sample FieldEvaluator::evaluate(const FieldNode& node, glm::vec3
         }
         case Role::repeat:
             for (int cell = 0; cell < kind.cells(node.values); ++cell) {
-                const Sample copy = fold(node, kind.domain(q, node.values, cell), inherited);
+                const glm::vec3 in_copy = kind.domain(q, node.values, cell);
+                Sample copy = fold(node, in_copy, inherited);
+                if (node.cut) copy.distance = kind.distance(copy.distance, in_copy, node.values);
                 if (copy.distance < s.distance) s = copy;
             }
             break;

@@ -42,6 +42,14 @@ Box definition_box(std::size_t index, float level, Definitions& definitions) {
     return box->second;
 }
 
+/// Leaves in `extent` what holds along the axes of both.
+void both(Extent& extent, const Extent& other) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        extent.symmetric[axis] = extent.symmetric[axis] && other.symmetric[axis];
+        extent.constant[axis] = extent.constant[axis] && other.constant[axis];
+    }
+}
+
 /// What the children fill together, at this level of theirs, in the node's own frame.
 Box content_box(const FieldNode& node, float level, Definitions& definitions) {
     const KindInfo& kind = *node.kind;
@@ -56,12 +64,10 @@ Box content_box(const FieldNode& node, float level, Definitions& definitions) {
     return box;
 }
 
-/// Symmetric where all children are.
+/// What holds of all children.
 Extent content_extent(const FieldNode& node, float level, Definitions& definitions) {
-    Extent extent{content_box(node, level, definitions), {true, true, true}};
-    for (const FieldNode& child : node.children)
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            extent.symmetric[axis] = extent.symmetric[axis] && child.extent.symmetric[axis];
+    Extent extent{content_box(node, level, definitions), {true, true, true}, {true, true, true}};
+    for (const FieldNode& child : node.children) both(extent, child.extent);
     return extent;
 }
 
@@ -70,12 +76,16 @@ Extent own_extent(const FieldNode& node, float level, Definitions& definitions) 
     const KindInfo& kind = *node.kind;
     if (kind.role == Role::primitive) {
         Extent extent = kind.extent(node.values);
+        for (int axis = 0; axis < 3; ++axis)
+            extent.constant[axis] =
+                !node.code && is_unbounded(extent.box.low[axis]) && is_unbounded(extent.box.high[axis]);
         extent.box = extent.box.grown(level);
         return extent;
     }
     if (kind.role == Role::instance)
         return {definition_box(node.definition, level, definitions),
-                definitions.prepared[node.definition].extent.symmetric};
+                definitions.prepared[node.definition].extent.symmetric,
+                definitions.prepared[node.definition].extent.constant};
     if (!kind.image) return content_extent(node, level, definitions);
     // Of confined content the distance to its bounds counts outside of them.
     Extent extent = kind.image(content_extent(node, kind.confined ? 0.0f : level, definitions), node.values);
@@ -127,17 +137,20 @@ FieldNode prepare(const Node& node, std::uint32_t inherited, Definitions& defini
     for (std::size_t i = 0; i < part.parameters.size(); ++i)
         part.values.push_back(to_code_units(part.parameters[i], node.values[i]));
     if (kind.derive) {
+        const Extent content = content_extent(part, 0.0f, definitions);
         part.values.resize(kind.parameters.size() + kind.derived.size());
-        kind.derive(content_extent(part, 0.0f, definitions), part.values,
-                    std::span(part.values).subspan(kind.parameters.size()));
+        kind.derive(content, part.values, std::span(part.values).subspan(kind.parameters.size()));
+        part.cut = kind.cut && !kind.warnings(content, part.children.size(), part.values).empty();
     }
 
     const Extent own = own_extent(part, 0.0f, definitions);
     part.region = with_margin(own.box);
     part.extent.box = to_parent(part, own.box);
-    for (int axis = 0; axis < 3; ++axis)
-        part.extent.symmetric[axis] =
-            own.symmetric[axis] && t.translate[axis] == 0.0f && part.to_own == glm::mat3(1.0f);
+    const bool turned = part.to_own != glm::mat3(1.0f);
+    for (int axis = 0; axis < 3; ++axis) {
+        part.extent.symmetric[axis] = own.symmetric[axis] && t.translate[axis] == 0.0f && !turned;
+        part.extent.constant[axis] = own.constant[axis] && !turned;
+    }
     return part;
 }
 
@@ -187,8 +200,7 @@ Extent content_extent(const FieldNode& node) {
     for (const FieldNode& child : std::span(node.children).subspan(1)) {
         const Box& box = child.extent.box;
         extent.box = node.kind->gather == Gather::all ? extent.box.common(box) : extent.box.united(box);
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            extent.symmetric[axis] = extent.symmetric[axis] && child.extent.symmetric[axis];
+        both(extent, child.extent);
     }
     return extent;
 }

@@ -31,24 +31,33 @@ Extent repeat_image(const Extent& content, Values v) {
     return image;
 }
 
-constexpr float most_cells = 16.0f;  // of content that wide; copies beyond do not show
+constexpr float most_cells = 16.0f;    // of content that wide; what copies beyond would show is cut off
+constexpr float endless_cells = 3.0f;  // of content without end that is not the same all along: likewise
+
+/// How many copies along one axis can hold the nearest point; see derive_repeat.
+float wanted_copies(const Extent& content, Values v, int axis) {
+    const float spacing = v[0][axis], count = v[1][axis], width = content.box.size()[axis];
+    if (spacing <= 0.0f || count == 1.0f || content.constant[axis]) return 1.0f;
+    if (content.symmetric[axis] && width <= spacing) return 1.0f;
+    const float wanted = content.box.is_bounded(axis) ? 1.0f + std::ceil(width / spacing) : unbounded;
+    return count > 0.0f ? std::min(wanted, count) : wanted;
+}
 
 // Of content that is `width` wide, each point has its nearest copy among the 1 + ceil(width / spacing) copies whose
 // middles are nearest: a copy further off is at least its half width further than one between. Content that fits into
 // its cell and is its own mirror image needs one: the planes between cells are mirrors, and what lies beyond is as far
-// or further. Content without end along the axis is taken to be the same all along it.
+// or further. Where that would be too many, the content is cut off to be as wide as those that are looked at allow.
 void derive_repeat(const Extent& content, Values v, std::span<glm::vec3> derived) {
     for (int axis = 0; axis < 3; ++axis) {
-        const float spacing = v[0][axis], count = v[1][axis], width = content.box.size()[axis];
-        float& cells = derived[0][axis];
-        cells = 1.0f;
-        derived[1][axis] = 0.0f;
-        if (spacing <= 0.0f || count == 1.0f) continue;
-        if (content.symmetric[axis] && width <= spacing) continue;
+        const float wanted = wanted_copies(content, v, axis), low = content.box.low[axis],
+                    high = content.box.high[axis];
         const bool bounded = content.box.is_bounded(axis);
-        cells = bounded ? std::min(1.0f + std::ceil(width / spacing), most_cells) : 2.0f;
-        if (count > 0.0f) cells = std::min(cells, count);
-        if (bounded) derived[1][axis] = content.box.centre()[axis];
+        derived[0][axis] = wanted <= most_cells ? wanted : bounded ? most_cells : endless_cells;
+        derived[1][axis] = wanted == 1.0f        ? 0.0f
+                           : bounded             ? content.box.centre()[axis]
+                           : !is_unbounded(low)  ? low
+                           : !is_unbounded(high) ? high
+                                                 : 0.0f;
     }
 }
 
@@ -103,34 +112,32 @@ void derive_polar_repeat(const Extent& content, Values v, std::span<glm::vec3> d
     derived[1].x = centre;
 }
 
-Warnings overlap_warning(float copies) {
-    if (copies <= most_cells) return {};
-    return {fmt::format("its content is so wide that {:.0f} copies lie over one another; only {:.0f} of them are drawn",
-                        copies, most_cells)};
+std::string overlap_warning(float copies) {
+    return fmt::format(
+        "its content is so wide that {:.0f} copies lie over one another; it is cut off where more than "
+        "{:.0f} do",
+        copies, most_cells);
 }
 
+/// There are some exactly where copies are cut (FieldNode::cut).
 Warnings repeat_warnings(const Extent& content, std::size_t, Values v) {
     Warnings found;
     for (int axis = 0; axis < 3; ++axis) {
-        const float spacing = v[0][axis], count = v[1][axis], width = content.box.size()[axis];
-        if (spacing <= 0.0f || count == 1.0f) continue;
-        if (!content.box.is_bounded(axis)) {
-            found.push_back(
-                fmt::format("its content has no end along {}, where it is repeated: copies are cut where "
-                            "their cells meet",
-                            "xyz"[axis]));
-        } else {
-            const float copies = 1.0f + std::ceil(width / spacing);
-            for (const std::string& warning : overlap_warning(count > 0.0f ? std::min(copies, count) : copies))
-                found.push_back(fmt::format("along {} {}", "xyz"[axis], warning));
-        }
+        const float wanted = wanted_copies(content, v, axis);
+        if (wanted <= most_cells) continue;
+        const std::string along = fmt::format("along {} ", "xyz"[axis]);
+        if (content.box.is_bounded(axis))
+            found.push_back(along + overlap_warning(wanted));
+        else
+            found.push_back(along + "its content has no end: copies are cut off one spacing from their middle");
     }
     return found;
 }
 
 Warnings polar_repeat_warnings(const Extent& content, std::size_t, Values v) {
-    const float count = v[0].x;
-    return overlap_warning(std::min(1.0f + std::ceil(sweep(content.box).first * count / full_turn), count));
+    const float count = v[0].x,
+                wanted = std::min(1.0f + std::ceil(sweep(content.box).first * count / full_turn), count);
+    return wanted <= most_cells ? Warnings{} : Warnings{overlap_warning(wanted)};
 }
 
 Warnings mirror_warnings(const Extent& content, std::size_t, Values v) {
@@ -225,6 +232,8 @@ void add_modifiers(std::vector<KindInfo>& t) {
     repeat_kind.derive = derive_repeat;
     repeat_kind.warnings = repeat_warnings;
     repeat_kind.secondary = "repeat_cells";
+    repeat_kind.cut = "repeat_cut";
+    repeat_kind.distance = safe_distance<shapes::repeat_cut>;
     t.push_back(repeat_kind);
 
     KindInfo polar =
@@ -233,6 +242,8 @@ void add_modifiers(std::vector<KindInfo>& t) {
     polar.domain = polar_repeat;
     polar.cells = [](Values v) { return shapes::polar_repeat_cells(v[0].x, v[1].x, v[2].x); };
     polar.secondary = "polar_repeat_cells";
+    polar.cut = "polar_repeat_cut";
+    polar.distance = safe_distance<shapes::polar_repeat_cut>;
     polar.image = [](const Extent& content, Values) { return around_y(content); };
     polar.function_takes_derived = true;
     polar.derived = {{"cells", "Copies that can be nearest", number},

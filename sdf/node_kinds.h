@@ -108,6 +108,8 @@ struct Extent {
     Box box;
     /// Per axis: the mirror image in the plane through the origin is the same.
     std::array<bool, 3> symmetric{};
+    /// Per axis: the same all along it.
+    std::array<bool, 3> constant{};
 };
 
 /// Which children bound what a combination fills.
@@ -131,6 +133,9 @@ struct KindInfo {
     /// domain: float f(d, p, parameters..., derived...), a safe distance; repeat: int f(parameters..., derived...), the
     /// number of cells.
     const char* secondary;
+    /// repeat: float f(d, p, parameters..., derived...), what counts of one copy where there are more than its cells
+    /// see (FieldNode::cut).
+    const char* cut;
     /// combine: GLSL of the distances {0} and {1} to use when all parameters are known to be 0, for the distance and
     /// for whether the second one's material shows; or null: the functions serve then too.
     const char* when_zero;

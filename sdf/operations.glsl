@@ -227,6 +227,18 @@ vec3 repeat(vec3 p, vec3 spacing, vec3 count, vec3 cells, vec3 centre, int cell)
                 repeat_axis(p.z, spacing.z, count.z, cells.z, centre.z, float(cell / (x * y))));
 }
 
+float beyond_cells(float p, float spacing, float count, float cells) {
+    return cells > 1.0f && cells != count ? abs(p) - 0.5f * (cells - 1.0f) * spacing : -1e9f;
+}
+
+// The distance d at p of one copy without what reaches further than those cells see.
+float repeat_cut(float d, vec3 p, vec3 spacing, vec3 count, vec3 cells, vec3 centre) {
+    float x = beyond_cells(p.x - centre.x, spacing.x, count.x, cells.x);
+    float y = beyond_cells(p.y - centre.y, spacing.y, count.y, cells.y);
+    float z = beyond_cells(p.z - centre.z, spacing.z, count.z, cells.z);
+    return max(d, max(x, max(y, z)));
+}
+
 // Copies turned about the y axis, `count` in a full turn; `cells` of them, those with their middles (at the angle centre
 // from x towards z) nearest to p.
 vec3 polar_repeat(vec3 p, float count, float cells, float centre, int cell) {
@@ -242,6 +254,16 @@ vec3 polar_repeat(vec3 p, float count, float cells, float centre, int cell) {
 
 int polar_repeat_cells(float count, float cells, float centre) {
     return int(cells);
+}
+
+// As repeat_cut: within the wedge of half the angle of those cells, to either side of centre.
+float polar_repeat_cut(float d, vec3 p, float count, float cells, float centre) {
+    if (cells == count) return d;
+    float angle = 3.1415927f * (cells - 1.0f) / count;
+    vec2 edge = vec2(cos(angle), sin(angle));
+    vec2 q = vec2(cos(centre) * p.x + sin(centre) * p.z, abs(cos(centre) * p.z - sin(centre) * p.x));
+    float away = length(q - max(dot(q, edge), 0.0f) * edge);
+    return max(d, q.y * edge.x > q.x * edge.y ? away : -away);
 }
 
 // The distance at p of content that was evaluated at the point of its bounds nearest to p; away leads from there to p.

@@ -58,6 +58,10 @@ TEST_F(FieldOnGpu, AgreesWithTheCpuOnEveryKind) {
     }
 }
 
+TEST_F(FieldOnGpu, AgreesWithTheCpuOnCopiesThatAreCutOff) {
+    for (const Scene& scene : scenes_with_cut_copies()) expect_agreement(scene, 1, "copies that are cut off");
+}
+
 /// Several nodes with the same code and other values, names that meet the library's, and what is no number.
 TEST_F(FieldOnGpu, AgreesWithTheCpuOnCustomCode) {
     const char* const texts[] = {

@@ -122,6 +122,22 @@ TEST(Field, AsymmetricContentRepeatsWithoutOvershoot) {
     }
 }
 
+TEST(Field, CopiesThatAreCutOffHaveNoSurfaceNearerThanTheySay) {
+    std::mt19937 random(3);
+    for (const Scene& scene : scenes_with_cut_copies()) {
+        const FieldEvaluator field(scene);
+        ASSERT_TRUE(field.tree().root->children[0].cut);
+        for (int i = 0; i < 400; ++i) {
+            const glm::vec3 a = random_point(random, 2.0f);
+            const float d = field.distance(a);
+            for (int k = 0; k < 10 && std::abs(d) > 1e-4f; ++k) {
+                const glm::vec3 way = glm::normalize(random_point(random, 1.0f)) * (std::abs(d) - 1e-4f);
+                ASSERT_EQ(d > 0.0f, field.distance(a + way) > 0.0f) << d;
+            }
+        }
+    }
+}
+
 TEST(Field, SmoothSeamsBlendMaterials) {
     EXPECT_EQ(blend_materials(3, 5, 0.0f), 3u);
     EXPECT_EQ(blend_materials(3, 5, 1.0f), 5u);

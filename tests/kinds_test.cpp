@@ -264,6 +264,21 @@ TEST_P(EveryKind, IsItsMirrorImageWhereItSaysSo) {
     });
 }
 
+TEST_P(EveryKind, IsTheSameAllAlongWhereItSaysSo) {
+    for_scenes(4, [&](const Scene& scene, Spread) {
+        const FieldEvaluator field(scene);
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!field.tree().root->extent.constant[axis]) continue;
+            for (int i = 0; i < 1000; ++i) {
+                const glm::vec3 p = random_point(random_, extent);
+                glm::vec3 q = p;
+                q[axis] = 0.0f;
+                ASSERT_NEAR(field.distance(p), field.distance(q), rounding) << "at " << text(p) << " along " << axis;
+            }
+        }
+    });
+}
+
 /// Operations for profiles promise the exact distance on both sides, by their defaults and for exact profiles that do
 /// not reach over the axis of revolution; at this scale none does, by parameters up to a fifth from its defaults.
 constexpr float scale_of_profiles = 0.8f;

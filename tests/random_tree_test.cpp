@@ -27,8 +27,7 @@ enum class Repeated { primitives, anything };
 Node random_tree(int depth, Repeated repeated, std::mt19937& random) {
     std::vector<NodeKind> kinds;
     for (const KindInfo& kind : node_kinds())
-        if (kind.takes_children() == (depth > 1) && kind.role != Role::instance && kind.kind != NodeKind::custom)
-            kinds.push_back(kind.kind);
+        if (kind.takes_children() == (depth > 1) && kind.role != Role::instance) kinds.push_back(kind.kind);
     Node node = make_node(kinds[random() % kinds.size()]);
     const KindInfo& kind = info(node.kind);
     const std::vector<Parameter> list = parameters(node);

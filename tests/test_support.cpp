@@ -131,6 +131,29 @@ std::string random_code(std::mt19937& random) {
     return texts[random() % std::size(texts)];
 }
 
+std::vector<Scene> scenes_with_cut_copies() {
+    std::vector<Scene> scenes;
+    const auto add = [&](NodeKind repeat, std::vector<glm::vec3> values, NodeKind content, glm::vec3 at,
+                         glm::vec3 rotate) {
+        Scene& scene = scenes.emplace_back();
+        Node node = make_node(repeat), child = make_node(content);
+        node.values = std::move(values);
+        child.transform.translate = at;
+        child.transform.rotate = rotate;
+        node.children.push_back(std::move(child));
+        apply(scene, InsertNode{scene.root.id, -1, node});
+    };
+    using K = NodeKind;
+    const glm::vec3 turned(20.0f, 30.0f, 40.0f);
+    add(K::repeat, {{0.03f, 0.9f, 0.0f}, {0.0f, 3.0f, 0.0f}}, K::torus, {0.3f, 0.0f, 0.2f}, turned);
+    add(K::repeat, {{0.02f, 0.05f, 0.05f}, {30.0f, 0.0f, 18.0f}}, K::box, {0.0f, 0.1f, 0.0f}, turned);
+    add(K::repeat, {{0.7f, 0.0f, 0.6f}, {0.0f, 1.0f, 5.0f}}, K::infinite_cylinder, {0.1f, 0.0f, 0.2f}, turned);
+    add(K::repeat, {{0.0f, 0.8f, 0.0f}, {1.0f, 0.0f, 1.0f}}, K::plane, {0.0f, 0.3f, 0.0f}, {0.0f, 0.0f, 0.0f});
+    add(K::polar_repeat, {{90.0f, 0.0f, 0.0f}}, K::box, {0.8f, 0.0f, 0.5f}, turned);
+    add(K::polar_repeat, {{17.0f, 0.0f, 0.0f}}, K::sphere, {0.1f, 0.0f, 0.0f}, turned);
+    return scenes;
+}
+
 Scene random_scene(unsigned seed, int nodes) {
     std::mt19937 random(seed);
     Scene scene;

@@ -34,6 +34,9 @@ private:
     std::filesystem::path path_;
 };
 
+/// Repetitions of content so wide, or without end, that their copies are cut off (FieldNode::cut).
+std::vector<Scene> scenes_with_cut_copies();
+
 /// A valid scene of `nodes` nodes (the root included; up to twelve more in definitions), made from the tables: every
 /// kind, parameter, material and light kind occurs sooner or later. Equal seeds give equal scenes, on every machine.
 /// Values lie near their defaults, so that the shapes are of about a metre's size and stand a few metres around the
