@@ -2,6 +2,7 @@
 
 #include "app/commands.h"
 #include "app/kind_samples.h"
+#include "ui/fonts.h"
 #include "app/progress.h"
 #include "renderer/renderer.h"
 #include "sdf/suggestion.h"
@@ -51,7 +52,6 @@ std::vector<Group> grouped(const std::vector<std::string>& only) {
 
     std::vector<Group> groups;
     for (const KindInfo& kind : node_kinds()) {
-        if (kind.role == Role::instance) continue;  // of what, a sheet of kinds cannot tell
         if (!only.empty() && std::find(only.begin(), only.end(), kind.key) == only.end()) continue;
         auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return g.role == kind.role; });
         if (group == groups.end()) group = groups.insert(groups.end(), {kind.role, {}});
@@ -74,11 +74,10 @@ public:
                         &rgb_[(static_cast<std::size_t>(at.y + y) * size_.x + at.x) * 3]);
     }
 
-    enum class Font { regular, bold };
     enum class Align { left, centre };
     /// In a field that begins at `at`, the text's baseline; smaller than `height` where it is wider than that.
-    void write(const char* text, glm::ivec2 at, int width, int height, Font font, Align align) {
-        const char* file = font_file(font);
+    void write(const char* text, glm::ivec2 at, int width, int height, const fonts::Files& font, Align align) {
+        const char* file = std::filesystem::exists(font[0]) ? font[0] : font[1];
         constexpr std::array<float, 3> colour{0.87f, 0.89f, 0.91f};
         const OIIO::ROI size = OIIO::ImageBufAlgo::text_size(text, height, file);
         if (size.defined() && size.width() > width) height = std::max(1, height * width / size.width());
@@ -92,15 +91,6 @@ public:
     void save(const std::filesystem::path& file) const { write_display(file, size_, rgb_); }
 
 private:
-    static const char* font_file(Font font) {
-        const bool bold = font == Font::bold;
-        const char* inter = bold ? "/usr/share/fonts/opentype/inter/Inter-SemiBold.otf"
-                                 : "/usr/share/fonts/opentype/inter/Inter-Regular.otf";
-        const char* dejavu = bold ? "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"
-                                  : "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-        return std::filesystem::exists(inter) ? inter : dejavu;
-    }
-
     glm::ivec2 size_;
     std::vector<unsigned char> rgb_;
     OIIO::ImageBuf buffer_;  ///< a view of rgb_
@@ -175,13 +165,13 @@ int run_contact_sheet(const ContactSheetOptions& options) {
     const float aspect = static_cast<float>(options.tile.x) / static_cast<float>(options.tile.y);
     Progress progress("rendering", static_cast<int>(layout.tiles.size()) * options.frames);
     for (const Layout::Heading& heading : layout.headings)
-        sheet.write(heading.text, heading.at, heading.width, layout.px(20), Sheet::Font::bold, Sheet::Align::left);
+        sheet.write(heading.text, heading.at, heading.width, layout.px(20), fonts::bold, Sheet::Align::left);
     for (const Layout::Tile& tile : layout.tiles) {
         renderer.update(sample_scene(*tile.kind, aspect), frame);
         if (!render_frames(renderer, options.frames, progress)) return 1;
         sheet.place(renderer.display_pixels(), options.tile, tile.at);
         sheet.write(tile.kind->label, tile.at + glm::ivec2(0, options.tile.y + layout.px(20)), options.tile.x,
-                    layout.px(15), Sheet::Font::regular, Sheet::Align::centre);
+                    layout.px(15), fonts::regular, Sheet::Align::centre);
     }
     sheet.save(options.output);
     return 0;

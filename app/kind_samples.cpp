@@ -109,6 +109,24 @@ Node sample(const KindInfo& kind, const Palette& palette) {
     return node;
 }
 
+/// A definition and three instances of it, one with a material of its own.
+void add_instances(Scene& scene, const Palette& palette) {
+    Node peg = make_node(NodeKind::union_);
+    peg.children = {shape(NodeKind::box, vec3(0.2f, 0.12f, 0.2f), 0),
+                    shape(NodeKind::sphere, vec3(0.14f), 0, vec3(0.0f, 0.2f, 0.0f))};
+    peg.transform.translate = {-0.5f, 0.0f, 0.0f};
+    peg.material = palette.main;
+    const Id first = apply(scene, InsertNode{scene.root.id, -1, peg});
+    Node instance = *find_node(scene, apply(scene, MakeDefinition{first}));
+    instance.transform.translate = {0.05f, 0.0f, 0.0f};
+    instance.transform.rotate = {0.0f, 45.0f, 0.0f};
+    instance.material = palette.second;
+    apply(scene, InsertNode{scene.root.id, -1, instance});
+    instance.transform = {{0.55f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, 0.6f};
+    instance.material = palette.main;
+    apply(scene, InsertNode{scene.root.id, -1, instance});
+}
+
 /// Whether there is a cavity that nobody can see: the box of distance operations hollow, or all of a combination's box
 /// and ball but what they share.
 bool is_hollow(const FieldEvaluator& field, Role role) {
@@ -194,7 +212,11 @@ void look_at(Camera& camera, const Occupied& extent, vec3 direction, float aspec
 Scene sample_scene(const KindInfo& kind, float aspect) {
     Scene scene;
     const Palette palette = add_palette(scene);
-    const Id id = apply(scene, InsertNode{scene.root.id, -1, sample(kind, palette)});
+    Id id = 0;
+    if (kind.role == Role::instance)
+        add_instances(scene, palette);
+    else
+        id = apply(scene, InsertNode{scene.root.id, -1, sample(kind, palette)});
     if (is_hollow(FieldEvaluator(scene), kind.role)) {
         const Id opened = apply(scene, InsertNode{scene.root.id, -1, make_node(NodeKind::subtract)});
         apply(scene, MoveNode{id, opened, -1});

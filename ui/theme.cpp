@@ -1,5 +1,7 @@
 #include "ui/theme.h"
 
+#include "ui/fonts.h"
+
 #include <imgui_freetype.h>
 
 #include <array>
@@ -12,7 +14,7 @@ namespace {
 constexpr std::array<ImWchar, 15> glyph_ranges = {0x20,   0x17f,  0x2c6,  0x2dd,  0x370,  0x3ff,  0x2010, 0x2026,
                                                   0x2070, 0x208e, 0x2190, 0x2193, 0x2212, 0x2212, 0};
 
-ImFont* load_font(std::initializer_list<const char*> files, float size) {
+ImFont* load_font(const fonts::Files& files, float size) {
     ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
     for (const char* file : files) {
         std::error_code ignored;
@@ -124,16 +126,10 @@ Theme make_theme(float pixel_scale) {
     atlas.Clear();
     atlas.FontBuilderIO = ImGuiFreeType::GetBuilderForFreeType();
     atlas.FontBuilderFlags = ImGuiFreeTypeBuilderFlags_LightHinting;
-    const char* inter = "/usr/share/fonts/opentype/inter/Inter-Regular.otf";
-    const char* inter_bold = "/usr/share/fonts/opentype/inter/Inter-SemiBold.otf";
-    const char* dejavu = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
-    const char* dejavu_bold = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
-    const char* jetbrains = "/usr/share/fonts/truetype/jetbrains-mono/JetBrainsMono-Regular.ttf";
-    const char* dejavu_mono = "/usr/share/fonts/truetype/dejavu/DejaVuSansMono.ttf";
-    theme.regular = load_font({inter, dejavu}, theme.px(15.0f));
-    theme.bold = load_font({inter_bold, dejavu_bold}, theme.px(15.0f));
-    theme.small_font = load_font({inter, dejavu}, theme.px(13.0f));
-    theme.mono = load_font({jetbrains, dejavu_mono}, theme.px(16.0f));
+    theme.regular = load_font(fonts::regular, theme.px(15.0f));
+    theme.bold = load_font(fonts::bold, theme.px(15.0f));
+    theme.small_font = load_font(fonts::regular, theme.px(13.0f));
+    theme.mono = load_font(fonts::mono, theme.px(16.0f));
     set_style(theme);
     return theme;
 }
