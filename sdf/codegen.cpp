@@ -1,113 +1,18 @@
 #include "sdf/codegen.h"
 
-#include "sdf/custom_suffixes.h"
+#include "sdf/code_lines.h"
 #include "sdf/field_tree.h"
+#include "sdf/parameter_block.h"
 #include "sdf/shape_library.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <set>
 
 namespace farfield {
 namespace {
-
-/// A float as a GLSL literal that reads back to the same bits.
-std::string literal(float v) {
-    std::string text = fmt::format("{}", v == 0.0f ? 0.0f : v);  // no negative zero
-    if (text.find_first_of(".e") == std::string::npos) text += ".0";
-    return text;
-}
-
-std::string literal(glm::vec3 v) {
-    if (v.x == v.y && v.y == v.z) return fmt::format("vec3({})", literal(v.x));
-    return fmt::format("vec3({}, {}, {})", literal(v.x), literal(v.y), literal(v.z));
-}
-
-std::string literal(const glm::mat3& m) {
-    std::string text = "mat3(";
-    for (int column = 0; column < 3; ++column)
-        for (int row = 0; row < 3; ++row) text += literal(m[column][row]) + (column == 2 && row == 2 ? ")" : ", ");
-    return text;
-}
-
-/// Code calls a definition "@" and its number; the text has a name there, the key, which does not depend on names, the
-/// number.
-std::string with_names(const std::string& code, const std::vector<std::string>& names) {
-    std::string text;
-    std::size_t from = 0;
-    for (std::size_t at = code.find('@'); at != std::string::npos; at = code.find('@', from)) {
-        std::size_t number = 0;
-        text += code.substr(from, at - from);
-        for (from = at + 1; from < code.size() && code[from] >= '0' && code[from] <= '9'; ++from)
-            number = 10 * number + static_cast<std::size_t>(code[from] - '0');
-        text += from > at + 1 && number < names.size() ? names[number] : code.substr(at, from - at);
-    }
-    return text + code.substr(from);
-}
-
-/// Lines of code with the nodes they belong to; the key gathers the code alone.
-struct Lines {
-    const std::vector<std::string>& names;  ///< of definitions
-    std::string text = {};
-    std::string key = {};
-    std::vector<Id> nodes = {};
-
-    void add(const std::string& code, Id node = 0, const std::string& comment = {}) {
-        const std::size_t column = 72;
-        const bool blank = code.find_first_not_of(' ') == std::string::npos;
-        std::string line = with_names(code, names);
-        if (!comment.empty()) {
-            if (!blank) line += std::string(line.size() < column ? column - line.size() : 1, ' ') + " ";
-            line += "// " + comment;
-            std::replace(line.begin(), line.end(), '\\', '/');  // at the end of a line it would continue the comment
-        }
-        text += line + "\n";
-        if (!blank) key += code + "\n";
-        nodes.push_back(node);
-    }
-    /// A line of the user's own, in which @ means nothing.
-    void add_as_it_is(const std::string& code, Id node) {
-        text += code + "\n";
-        key += code + "\n";
-        nodes.push_back(node);
-    }
-    void append(const Lines& other) {
-        text += other.text;
-        key += other.key;
-        nodes.insert(nodes.end(), other.nodes.begin(), other.nodes.end());
-    }
-};
-
-/// Names by which the code can call the definitions, made from their own: of letters, digits and single underscores, in
-/// a form that no keyword has and no other function of the program. They stand before "_distance" and "_surface".
-std::vector<std::string> code_names(const std::vector<FieldNode>& definitions) {
-    std::vector<std::string> names;
-    std::set<std::string> taken{"scene", "no"};  // scene_distance, no_surface
-    std::map<std::string, int> numbers;
-    for (const FieldNode& definition : definitions) {
-        constexpr std::size_t longest = 40;
-        std::string name;
-        for (const char c : definition.name.substr(0, longest)) {
-            const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'), digit = c >= '0' && c <= '9';
-            if (letter || digit)
-                name += c;
-            else if (!name.empty() && name.back() != '_')
-                name += '_';
-        }
-        if (!name.empty() && name.back() == '_') name.pop_back();
-        if (name.empty() || (name[0] >= '0' && name[0] <= '9') || name.starts_with("gl_"))
-            name = name.empty() ? "part" : "part_" + name;
-        std::string free = name;
-        int& number = numbers[name];
-        while (!taken.insert(free).second || is_shape(free + "_distance") || is_shape(free + "_surface"))
-            free = fmt::format("{}_{}", name, number++ + 2);
-        names.push_back(free);
-    }
-    return names;
-}
 
 /// What a node comes to in the code: an expression of the distance and one of the material code.
 struct Result {
@@ -117,98 +22,30 @@ struct Result {
     bool varies = false;  ///< the material is one: it is not the same everywhere
 };
 
-/// Which numbers are live, and where their nodes' values stand in the parameter block: translation, inverse rotation by
-/// columns, scale, the kind's parameters, material index. What follows from a node's content stands apart: it is live
-/// where anything below is.
-class ParameterBlock {
-public:
-    ParameterBlock(const FieldTree& tree, Tier tier, Id tuned) : all_(tier == Tier::live), tuned_(tuned) {
-        if (tuned == 0) return;
-        for (const FieldNode& definition : tree.definitions) above_tuned_.push_back(find_above(definition));
-        if (tree.root) find_above(*tree.root);
-    }
-
-    bool is_live(const FieldNode& n) const { return all_ || (tuned_ != 0 && n.id == tuned_); }
-    bool is_derived_live(const FieldNode& n) const { return all_ || nodes_above_tuned_.contains(n.id); }
-
-    /// Index of the node's first value; both functions of the program share it.
-    std::size_t first(const FieldNode& n) {
-        const auto [place, fresh] = first_.try_emplace(n.id, values.size());
-        if (!fresh) return place->second;
-        add(n.translate);
-        for (int column = 0; column < 3; ++column) add(n.to_own[column]);
-        values.push_back(n.scale);
-        for (std::size_t i = 0; i < n.parameters.size(); ++i) add(n.parameters[i], n.values[i]);
-        values.push_back(n.material == inherited_material ? -1.0f : static_cast<float>(n.material));
-        return place->second;
-    }
-    /// Index of the first derived value; the low and high corner of the region follow where the node needs them.
-    std::size_t first_derived(const FieldNode& n) {
-        const auto [place, fresh] = first_derived_.try_emplace(n.id, values.size());
-        if (!fresh) return place->second;
-        for (std::size_t i = 0; i < n.kind->derived.size(); ++i)
-            add(n.kind->derived[i], n.values[n.kind->parameters.size() + i]);
-        if (n.kind->confined) add(n.region.low), add(n.region.high);
-        return place->second;
-    }
-
-    std::vector<float> values;
-
-private:
-    void add(glm::vec3 v) { values.insert(values.end(), {v.x, v.y, v.z}); }
-    void add(const Parameter& parameter, glm::vec3 v) {
-        if (parameter.components() == 1)
-            values.push_back(v.x);
-        else
-            add(v);
-    }
-    /// Whether the tuned node is this one or below it; remembers those for which it is.
-    bool find_above(const FieldNode& n) {
-        bool found = n.id == tuned_ || (n.kind->role == Role::instance && above_tuned_[n.definition]);
-        for (const FieldNode& child : n.children) found = find_above(child) || found;
-        if (found) nodes_above_tuned_.insert(n.id);
-        return found;
-    }
-
-    bool all_;
-    Id tuned_;
-    std::vector<bool> above_tuned_;  ///< for each definition
-    std::set<Id> nodes_above_tuned_;
-    std::map<Id, std::size_t> first_, first_derived_;
-};
-
-constexpr std::size_t scale_offset = 12, parameters_offset = 13;
-
 /// Writes the functions of the definitions and of the scene, for the distance alone or for distance and material
 /// together.
 class Writer {
 public:
-    Writer(const FieldTree& tree, const std::vector<std::string>& names, ParameterBlock& block,
-           const CustomSuffixes& suffixes, bool with_material)
-        : tree_(tree),
-          names_(names),
-          block_(block),
-          suffixes_(suffixes),
-          with_material_(with_material),
-          functions_{names} {}
+    Writer(const FieldTree& tree, const CodeNames& names, ParameterBlock& block, bool with_material)
+        : tree_(tree), names_(names), block_(block), with_material_(with_material), functions_{names} {}
 
     /// The code of the custom nodes, once for each; `called` gets the names in it that are not its own.
-    Lines custom_functions(std::string& called) {
-        Lines out{names_};
+    CodeLines custom_functions(std::string& called) {
+        CodeLines out{names_};
         std::set<Id> done;
         for (const FieldNode& definition : tree_.definitions) custom_functions(definition, done, out, called);
         if (tree_.root) custom_functions(*tree_.root, done, out, called);
         return out;
     }
 
-    Lines write() {
+    CodeLines write() {
         for (std::size_t i = 0; i < tree_.definitions.size(); ++i) write_definition(i);
         in_definition_ = false;
         next_group_ = next_child_ = 0;
-        Lines body{names_};
+        CodeLines body{names_};
         std::optional<Result> result;
         if (tree_.root) result = node(*tree_.root, "p", body, "    ");
-        Lines all{names_};
+        CodeLines all{names_};
         all.append(functions_);
         all.add(with_material_ ? "float scene_surface(vec3 p, out uint material) {" : "float scene_distance(vec3 p) {");
         all.append(body);
@@ -221,16 +58,17 @@ public:
 private:
     /// A definition whose material is the same everywhere needs no function for it.
     void write_definition(std::size_t index) {
+        const std::string name = CodeNames::of_definition(index);
         const FieldNode& n = tree_.definitions[index];
         in_definition_ = true;
         next_group_ = next_child_ = 0;
-        Lines body{names_};
+        CodeLines body{names_};
         const Result result = node(n, "p", body, "    ");
         materials_.push_back(result);
         if (with_material_ && !result.varies) return;
         functions_.add(with_material_
-                           ? fmt::format("float @{}_surface(vec3 p, uint inherited, out uint material) {{", index)
-                           : fmt::format("float @{}_distance(vec3 p) {{", index),
+                           ? fmt::format("float {}_surface(vec3 p, uint inherited, out uint material) {{", name)
+                           : fmt::format("float {}_distance(vec3 p) {{", name),
                        n.id, n.kind->takes_children() ? "" : comment(n));
         functions_.append(body);
         if (with_material_) functions_.add(fmt::format("    material = {};", result.material), n.id);
@@ -267,14 +105,14 @@ private:
 
     Numbers live_numbers(const FieldNode& n, const std::string& p, std::size_t first) const {
         Numbers numbers{fmt::format("place({}, {})", p, first),
-                        fmt::format("parameter({}) * ", first + scale_offset),
+                        fmt::format("parameter({}) * ", first + ParameterBlock::scale_offset),
                         "",
                         "",
                         "",
                         "",
                         "",
                         false};
-        std::size_t at = first + parameters_offset;
+        std::size_t at = first + ParameterBlock::parameters_offset;
         for (const Parameter& parameter : n.parameters) {
             numbers.arguments += ", " + read(parameter, at);
             at += static_cast<std::size_t>(parameter.components());
@@ -326,23 +164,23 @@ private:
                                           : n.name;
     }
 
-    Result node(const FieldNode& n, const std::string& p, Lines& out, const std::string& indent) {
+    Result node(const FieldNode& n, const std::string& p, CodeLines& out, const std::string& indent) {
         return n.kind->role == Role::instance ? instance(n, p, out, indent)
                : n.kind->takes_children()     ? group(n, p, out, indent)
                                               : primitive(n, p);
     }
 
-    Result instance(const FieldNode& n, const std::string& p, Lines& out, const std::string& indent) {
+    Result instance(const FieldNode& n, const std::string& p, CodeLines& out, const std::string& indent) {
         const Numbers own = numbers(n, p);
         const Result& shown = materials_[n.definition];
         if (!shown.varies)
-            return {fmt::format("{}@{}_distance({})", own.factor, n.definition, own.point),
+            return {fmt::format("{}{}_distance({})", own.factor, CodeNames::of_definition(n.definition), own.point),
                     with_material_ ? with_inherited(shown.material, own.material) : ""};
         const int id = next_child_++;
         const Result result{fmt::format("e{}", id), fmt::format("n{}", id), true, true};
         out.add(fmt::format("{}uint {};", indent, result.material), n.id);
-        out.add(fmt::format("{}float {} = {}@{}_surface({}, {}, {});", indent, result.distance, own.factor,
-                            n.definition, own.point, own.material, result.material),
+        out.add(fmt::format("{}float {} = {}{}_surface({}, {}, {});", indent, result.distance, own.factor,
+                            CodeNames::of_definition(n.definition), own.point, own.material, result.material),
                 n.id, comment(n));
         return result;
     }
@@ -355,24 +193,22 @@ private:
         return material;
     }
 
-    void custom_functions(const FieldNode& n, std::set<Id>& done, Lines& out, std::string& called) {
+    void custom_functions(const FieldNode& n, std::set<Id>& done, CodeLines& out, std::string& called) {
         for (const FieldNode& child : n.children) custom_functions(child, done, out, called);
         if (!n.code || !done.insert(n.id).second) return;
         const bool live = block_.is_live(n);
-        std::size_t at = live ? block_.first(n) + parameters_offset : 0;
+        std::size_t at = live ? block_.first(n) + ParameterBlock::parameters_offset : 0;
         std::vector<std::string> arguments;
         for (std::size_t i = 0; i < n.parameters.size(); ++i) {
             arguments.push_back(live ? read(n.parameters[i], at) : written(n.parameters[i], n.values[i]));
             at += static_cast<std::size_t>(n.parameters[i].components());
         }
-        const std::string& suffix = suffixes_.of(n);
+        const std::string suffix = names_.of_custom(n);
+        const auto code = [&](const std::string& ending) {
+            return n.code->glsl(ending, std::span(arguments).subspan(n.kind->parameters.size()));
+        };
         out.add("", n.id, comment(n));
-        const std::string code = n.code->glsl(suffix, std::span(arguments).subspan(n.kind->parameters.size()));
-        for (std::size_t start = 0; start < code.size();) {
-            const std::size_t end = std::min(code.find('\n', start), code.size());
-            out.add_as_it_is(code.substr(start, end - start), n.id);
-            start = end + 1;
-        }
+        out.add_as_it_is(code(names_.in(suffix)), code(suffix.substr(1)), n.id);
         out.add("", n.id);
         out.add(fmt::format("float sdf_{}_in_bounds(vec3 p) {{", suffix), n.id);
         out.add(fmt::format("    vec3 nearest = nearest_custom(p, {});", arguments[0]), n.id);
@@ -387,13 +223,13 @@ private:
     Result primitive(const FieldNode& n, const std::string& p) {
         const Numbers own = numbers(n, p);
         if (n.code)
-            return {fmt::format("{}sdf_{}_in_bounds({})", own.factor, suffixes_.of(n), own.point),
+            return {fmt::format("{}sdf_{}_in_bounds({})", own.factor, names_.of_custom(n), own.point),
                     with_material_ ? own.material : ""};
         return {fmt::format("{}{}({}{})", own.factor, n.kind->function, own.point, own.arguments),
                 with_material_ ? own.material : ""};
     }
 
-    Result group(const FieldNode& n, const std::string& p, Lines& out, const std::string& indent) {
+    Result group(const FieldNode& n, const std::string& p, CodeLines& out, const std::string& indent) {
         const KindInfo& kind = *n.kind;
         const int id = next_group_++;
         out.add(indent, n.id, comment(n));
@@ -429,14 +265,14 @@ private:
     }
 
     /// Gives the variable of the distance a new value.
-    static void set(const Result& result, const std::string& value, const FieldNode& n, Lines& out,
+    static void set(const Result& result, const std::string& value, const FieldNode& n, CodeLines& out,
                     const std::string& indent) {
         out.add(fmt::format("{}{} = {};", indent, result.distance, value), n.id);
     }
 
     /// Folds the children, one line each, into variables: the first child's where it has some, or those numbered `id`.
     /// The material needs none as long as it is the same.
-    Result fold(const FieldNode& n, const Numbers& num, const std::string& p, int id, Lines& out,
+    Result fold(const FieldNode& n, const Numbers& num, const std::string& p, int id, CodeLines& out,
                 const std::string& indent) {
         const KindInfo& kind = *n.kind;
         Result result;
@@ -490,7 +326,7 @@ private:
                            b, num.arguments);
     }
 
-    Result domain(const FieldNode& n, const Numbers& num, const std::string& p, int id, Lines& out,
+    Result domain(const FieldNode& n, const Numbers& num, const std::string& p, int id, CodeLines& out,
                   const std::string& indent) {
         std::string nearest = p, moved = p;
         if (!num.low.empty()) {
@@ -513,7 +349,7 @@ private:
     }
 
     /// The content becomes a function of its own, called for each cell that can hold the nearest copy.
-    Result repeat(const FieldNode& n, const Numbers& num, const std::string& p, int id, Lines& out,
+    Result repeat(const FieldNode& n, const Numbers& num, const std::string& p, int id, CodeLines& out,
                   const std::string& indent) {
         const KindInfo& kind = *n.kind;
         const bool live = block_.is_live(n) || block_.is_derived_live(n);
@@ -528,7 +364,7 @@ private:
         const int copy_id = next_copy_++;
         const std::string content = fmt::format("distance_of_copy{}", copy_id),
                           material_of = fmt::format("material_of_copy{}", copy_id);
-        Lines body{names_};
+        CodeLines body{names_};
         const Result copy = fold(n, num, "p", id, body, "    ");
         if (n.cut) set(copy, fmt::format("{}({}, p{})", kind.cut, copy.distance, args), n, body, "    ");
         const bool materials = copy.varies;
@@ -568,11 +404,10 @@ private:
     }
 
     const FieldTree& tree_;
-    const std::vector<std::string>& names_;
+    const CodeNames& names_;
     ParameterBlock& block_;
-    const CustomSuffixes& suffixes_;
     bool with_material_;
-    Lines functions_;
+    CodeLines functions_;
     std::vector<Result> materials_;  ///< of the definitions
     bool in_definition_ = false;
     int next_group_ = 0;
@@ -604,14 +439,13 @@ constexpr const char* inherited_helper =
     "    return parameter(i) < 0.0 ? inherited : uint(parameter(i));\n"
     "}\n";
 
-Lines write(const FieldTree& tree, ParameterBlock& block, const std::vector<std::string>& names,
-            const CustomSuffixes& suffixes) {
+CodeLines write(const FieldTree& tree, ParameterBlock& block, const CodeNames& names) {
     std::string called;
-    const Lines custom = Writer(tree, names, block, suffixes, false).custom_functions(called);
-    const Lines distance = Writer(tree, names, block, suffixes, false).write();
-    const Lines material = Writer(tree, names, block, suffixes, true).write();
+    const CodeLines custom = Writer(tree, names, block, false).custom_functions(called);
+    const CodeLines distance = Writer(tree, names, block, false).write();
+    const CodeLines material = Writer(tree, names, block, true).write();
 
-    Lines all{names};
+    CodeLines all{names};
     std::string library = used_shapes(called + distance.key + material.key);
     if (!block.values.empty()) library += live_helpers;
     if (material.key.find("live_material(") != std::string::npos) library += inherited_helper;
@@ -634,11 +468,8 @@ GeneratedScene generate(const Scene& scene, Tier tier, Id tuned) {
     GeneratedScene generated;
     const FieldTree tree(scene);
     ParameterBlock block(tree, tier, tuned);
-    const std::vector<std::string> names = code_names(tree.definitions);
-    const CustomSuffixes suffixes(tree, true);
-    Lines all = write(tree, block, names, suffixes);
-    // Names of nodes are part of the text, not of the program.
-    if (!suffixes.empty()) all.key = write(tree, block, names, CustomSuffixes(tree, false)).key;
+    const CodeNames names(tree);
+    CodeLines all = write(tree, block, names);
     generated.text = std::move(all.text);
     generated.key = std::move(all.key);
     generated.parameters = std::move(block.values);
