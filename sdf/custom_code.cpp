@@ -134,7 +134,8 @@ bool is_reserved(std::string_view key) {
 Parameter described(const CustomUniform& uniform) {
     using P = ParameterType;
     Parameter parameter{"", "", P::number, uniform.unit};
-    if (uniform.type == "int" || uniform.type == "bool") parameter.type = P::integer;
+    if (uniform.type == "int") parameter.type = P::integer;
+    if (uniform.type == "bool") parameter.type = P::flag;
     if (uniform.type == "vec3") parameter.type = P::vector;
     if (uniform.type == "ivec3") parameter.type = P::count;
     if (uniform.type == "bvec3") parameter.type = P::flags;

@@ -12,6 +12,7 @@ int Parameter::components() const {
     switch (type) {
         case ParameterType::number:
         case ParameterType::integer:
+        case ParameterType::flag:
         case ParameterType::choice:
             return 1;
         default:
@@ -20,8 +21,8 @@ int Parameter::components() const {
 }
 
 bool Parameter::is_whole() const {
-    return type == ParameterType::integer || type == ParameterType::count || type == ParameterType::flags ||
-           type == ParameterType::choice;
+    return type == ParameterType::integer || type == ParameterType::count || type == ParameterType::choice ||
+           is_switch();
 }
 
 glm::vec3 to_code_units(const Parameter& parameter, glm::vec3 value) {
@@ -31,6 +32,8 @@ glm::vec3 to_code_units(const Parameter& parameter, glm::vec3 value) {
 
 std::string expectation(const Parameter& parameter) {
     switch (parameter.type) {
+        case ParameterType::flag:
+            return "true or false";
         case ParameterType::flags:
             return "three of true or false";
         case ParameterType::choice:

@@ -16,6 +16,7 @@ enum class ParameterType {
     vector,   ///< three real numbers
     count,    ///< three whole numbers
     color,    ///< linear Rec. 709, three numbers >= 0; above 1 where the range allows it (emission, lights)
+    flag,     ///< one switch, 0 or 1, stored in x
     flags,    ///< three switches, 0 or 1, one for each axis
     choice,   ///< index into `choices`, stored in x; written by name in files
 };
@@ -38,6 +39,7 @@ struct Parameter {
 
     int components() const;  ///< 1 or 3
     bool is_whole() const;   ///< values are whole numbers
+    bool is_switch() const { return type == ParameterType::flag || type == ParameterType::flags; }
 };
 
 /// The value as the generated code takes it: degrees become radians, everything else stays.

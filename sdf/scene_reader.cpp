@@ -128,7 +128,7 @@ private:
     }
 
     float read_component(const Json& json, const Parameter& parameter, const JsonPath& path) const {
-        if (parameter.type == ParameterType::flags) {
+        if (parameter.is_switch()) {
             const bool* flag = json.as<bool>();
             if (!flag) unexpected(path, json, "true or false");
             return *flag ? 1.0f : 0.0f;

@@ -24,7 +24,7 @@ Schema reference(std::string_view definition) { return {{"$ref", fmt::format("#/
 
 /// One component, or all of a parameter that has one.
 Schema component(const Parameter& parameter) {
-    if (parameter.type == ParameterType::flags) return {{"type", "boolean"}};
+    if (parameter.is_switch()) return {{"type", "boolean"}};
     return {{"type", parameter.is_whole() ? "integer" : "number"},
             {"minimum", number(parameter.minimum)},
             {"maximum", number(parameter.maximum)}};
@@ -33,6 +33,7 @@ Schema component(const Parameter& parameter) {
 Schema initial(const Parameter& parameter) {
     const glm::vec3 v = parameter.initial;
     if (parameter.type == ParameterType::choice) return parameter.choices[static_cast<std::size_t>(v.x)];
+    if (parameter.type == ParameterType::flag) return v.x != 0.0f;
     if (parameter.components() == 1) return number(v.x);
     if (parameter.type == ParameterType::flags) return Schema::array({v.x != 0.0f, v.y != 0.0f, v.z != 0.0f});
     return Schema::array({number(v.x), number(v.y), number(v.z)});
@@ -116,7 +117,7 @@ Schema node(const KindInfo& kind) {
     // What the code declares, in as far as a schema can tell.
     const Schema numbers{
         {"type", "array"}, {"items", {{"type", {"number", "boolean"}}}}, {"minItems", 3}, {"maxItems", 3}};
-    schema["additionalProperties"] = {{"anyOf", {{{"type", "number"}}, numbers}}};
+    schema["additionalProperties"] = {{"anyOf", {{{"type", {"number", "boolean"}}}, numbers}}};
     return schema;
 }
 

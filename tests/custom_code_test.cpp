@@ -85,7 +85,7 @@ TEST(CustomCode, UniformsAreParameters) {
     EXPECT_EQ(p[3].unit, Unit::degrees);
     EXPECT_STREQ(p[4].tip, "Twist");
     EXPECT_EQ(p[4].unit, Unit::degrees_per_metre);
-    EXPECT_EQ(p[5].type, ParameterType::integer);
+    EXPECT_EQ(p[5].type, ParameterType::flag);
     EXPECT_EQ(p[5].maximum, 1.0f);
     EXPECT_EQ(p[5].initial.x, 1.0f);
     EXPECT_EQ(p[6].type, ParameterType::count);

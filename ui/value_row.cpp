@@ -23,6 +23,9 @@ std::string hint_text(const Parameter& parameter, const std::string& full = {}) 
         case ParameterType::choice:
             initial = parameter.choices[static_cast<std::size_t>(parameter.initial.x)];
             break;
+        case ParameterType::flag:
+            initial = parameter.initial.x != 0.0f ? "on" : "off";
+            break;
         case ParameterType::flags:
             for (int i = 0; i < 3; ++i)
                 if (parameter.initial[i] != 0.0f) initial += "xyz"[i];
@@ -33,7 +36,7 @@ std::string hint_text(const Parameter& parameter, const std::string& full = {}) 
                 parameter.components() == 1 ? number(0) : fmt::format("{}, {}, {}", number(0), number(1), number(2));
             if (parameter.unit != Unit::none) initial += fmt::format(" {}", unit_symbol(parameter.unit));
     }
-    const bool numeric = parameter.type != ParameterType::choice && parameter.type != ParameterType::flags;
+    const bool numeric = parameter.type != ParameterType::choice && !parameter.is_switch();
     return fmt::format("{}Default {}. {}Right-click to reset.", full.empty() ? "" : fmt::format("Now {}. ", full),
                        initial, numeric ? "Double-click to type; Shift drags finer, Ctrl coarser. " : "");
 }
@@ -199,6 +202,14 @@ std::optional<vec3> value_row(Ui& ui, const char* panel, const Parameter& parame
         case ParameterType::color:
             changed = color_fields(ui, name, panel, parameter, edited);
             break;
+        case ParameterType::flag: {
+            bool on = edited.x != 0.0f;
+            if (ImGui::Checkbox("##value", &on)) edited.x = on ? 1.0f : 0.0f, changed = true;
+            ui.report.item(panel, name);
+            tooltip(ui, parameter.tip, hint_text(parameter));
+            if (asked_for_default()) edited = parameter.initial, changed = true;
+            break;
+        }
         case ParameterType::flags:
             changed = flag_buttons(ui, name, panel, parameter, edited);
             break;
