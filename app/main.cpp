@@ -1,6 +1,7 @@
 // The command line: `farfield [SCENE]` opens the editor, the subcommands work without a window.
 #include "app/check.h"
 #include "app/commands.h"
+#include "app/compare.h"
 #include "app/contact_sheet.h"
 #include "app/editor.h"
 #include "renderer/gl.h"
@@ -25,9 +26,9 @@ namespace {
     throw CLI::ValidationError(option, fmt::format("\"{}\" given, expected {}", found, expected));
 }
 
-/// All of the text as a whole number, with a sign or without.
+/// All of the text as a number, with a sign or without.
 template <class T>
-bool read_whole(std::string_view text, T& value) {
+bool read_number(std::string_view text, T& value) {
     if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc() && end == text.data() + text.size();
@@ -40,8 +41,8 @@ glm::ivec2 parse_size(std::string_view text) {
     constexpr std::int64_t most = 8192 * 4096;
     glm::ivec2 size{0};
     const std::size_t cross = text.find('x');
-    const bool read = cross != std::string_view::npos && read_whole(text.substr(0, cross), size.x) &&
-                      read_whole(text.substr(cross + 1), size.y);
+    const bool read = cross != std::string_view::npos && read_number(text.substr(0, cross), size.x) &&
+                      read_number(text.substr(cross + 1), size.y);
     if (!read || size.x < 1 || size.y < 1 || size.x > longest || size.y > longest)
         refuse("--size", std::string(text), fmt::format("WIDTHxHEIGHT, each between 1 and {}", longest));
     if (static_cast<std::int64_t>(size.x) * size.y > most)
@@ -54,8 +55,20 @@ template <class T>
 void add_whole(CLI::App& command, const std::string& option, T& to, T low, T high, const std::string& help) {
     const auto read = [=, &to](const std::string& text) {
         T value = 0;
-        if (!read_whole(text, value) || value < low || value > high)
+        if (!read_number(text, value) || value < low || value > high)
             refuse(option, text, fmt::format("a whole number between {} and {}", low, high));
+        to = value;
+    };
+    command.add_option_function<std::string>(option, read, help)->type_name("NUMBER");
+}
+
+/// An option for a real number.
+void add_number(CLI::App& command, const std::string& option, float& to, float low, float high,
+                const std::string& help) {
+    const auto read = [=, &to](const std::string& text) {
+        float value = 0.0f;
+        if (!read_number(text, value) || !(value >= low && value <= high))
+            refuse(option, text, fmt::format("a number between {} and {}", low, high));
         to = value;
     };
     command.add_option_function<std::string>(option, read, help)->type_name("NUMBER");
@@ -206,6 +219,18 @@ int run(int argc, char** argv) {
         ->type_name("KEY");
     add_whole(*sheet_command, "--frames", sheet.frames, 1, 1'000'000, "Frames to accumulate, default 16");
 
+    CompareOptions compare;
+    CLI::App* compare_command = app.add_subcommand("compare", "How far an image is from a reference, by every metric");
+    compare_command->add_option("IMAGE", compare.image, "EXR (linear) or PNG (sRGB)")->required();
+    compare_command->add_option("REFERENCE", compare.reference, "What it should be")->required();
+    compare_command->add_option("--layer", compare.layer, "Of EXR files, as \"direct\"; default the file's own R, G, B")
+        ->type_name("NAME");
+    add_number(*compare_command, "--exposure", compare.exposure, -20.0f, 20.0f,
+               "Stops, for FLIP, which compares what a screen shows; default 0");
+    compare_command->footer(
+        "RMSE / mean, relMSE and mean bias (of the image, less that of the reference) are relative to the reference's\n"
+        "mean and count linear values; FLIP (Andersson et al. 2020) is 0 for pictures that look alike and at most 1.");
+
     try {
         app.parse(argc, argv);
         int status = 0;
@@ -219,6 +244,8 @@ int run(int argc, char** argv) {
             status = run_schema();
         else if (*sheet_command)
             status = run_contact_sheet(sheet);
+        else if (*compare_command)
+            status = run_compare(compare);
         else if (*bench_command)
             status = run_bench(bench);
         else
