@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <string_view>
 
 namespace farfield {
@@ -138,6 +139,12 @@ Image exposed(Image image, float exposure) {
     const float factor = std::exp2(exposure);
     for (float& v : image.pixels) v = std::clamp(v * factor, 0.0f, 1.0f);
     return image;
+}
+
+Image difference(const Image& a, const Image& b) {
+    Image result = a;
+    std::transform(a.pixels.begin(), a.pixels.end(), b.pixels.begin(), result.pixels.begin(), std::minus<>());
+    return result;
 }
 
 Image resized(const Image& image, glm::ivec2 size) {

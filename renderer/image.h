@@ -50,6 +50,9 @@ std::string read_attribute(const std::filesystem::path& file, const std::string&
 /// What a screen shows of a linear image before its transfer function: times 2^exposure (stops), clamped to 0..1.
 Image exposed(Image image, float exposure);
 
+/// a - b, of the same size.
+Image difference(const Image& a, const Image& b);
+
 /// Resampled bilinearly; the same image for the same size.
 Image resized(const Image& image, glm::ivec2 size);
 

@@ -67,8 +67,8 @@ std::vector<LightRecord> light_records(const Scene& scene) {
     return records;
 }
 
-/// Everything that accumulated samples depend on, as bytes to compare: geometry (the live code and its parameters),
-/// materials, lights, sky, camera, seed, bounces. The size of the picture stands apart.
+}  // namespace
+
 std::string transport_bytes(const Scene& scene, FrameOptions options) {
     options.size = {1, 1};
     const GeneratedScene generated = generate(scene, Tier::live);
@@ -80,8 +80,6 @@ std::string transport_bytes(const Scene& scene, FrameOptions options) {
     append_bytes(bytes, scene.settings.bounces);
     return bytes;
 }
-
-}  // namespace
 
 Renderer::Renderer() {
     counters_.resize(sizeof(CounterRecord));
