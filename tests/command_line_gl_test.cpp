@@ -1,12 +1,12 @@
 // The program as scripts use it: exit statuses, messages, files.
 #include "renderer/image.h"
 #include "renderer/views.h"
+#include "tests/program.h"
 #include "tests/test_support.h"
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <array>
@@ -16,27 +16,6 @@
 
 namespace farfield {
 namespace {
-
-struct Outcome {
-    int status = -1;
-    std::string output;  ///< stdout and stderr
-};
-
-/// `before`: shell commands to run first.
-Outcome farfield_command(const std::string& arguments, const char* before = "") {
-    Outcome outcome;
-    const std::string command =
-        fmt::format("exec 2>&1; {}env -u DISPLAY -u WAYLAND_DISPLAY '{}' {}", before, FARFIELD_PROGRAM, arguments);
-    FILE* pipe = popen(command.c_str(), "r");
-    if (!pipe) return outcome;
-    std::array<char, 4096> buffer{};
-    while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe)) outcome.output.append(buffer.data(), n);
-    const int status = pclose(pipe);
-    if (WIFEXITED(status)) outcome.status = WEXITSTATUS(status);
-    return outcome;
-}
-
-std::string scene(const char* name) { return fmt::format("'{}/{}.json'", FARFIELD_SCENES, name); }
 
 TEST(CommandLine, HelpNamesEveryCommandAndNeedsNoDisplay) {
     const Outcome help = farfield_command("--help");
