@@ -31,7 +31,8 @@ struct Marker {
 };
 constexpr Marker markers[] = {{Varied::blur_levels, "other blur levels", 1},
                               {Varied::ao_radius, "other AO radii", 2},
-                              {Varied::scale, "smaller picture", 8}};
+                              {Varied::scale, "smaller picture", 8},
+                              {Varied::minimum_step, "longer minimum step", 4}};
 
 struct Panel {
     std::string title;
@@ -233,6 +234,8 @@ std::string value_of(const ChartPoint& p) {
             return fmt::format("bounces {}", p.setting.bounces);
         case Varied::scale:
             return fmt::format("scale {:g}", p.setting.scale);
+        case Varied::minimum_step:
+            return fmt::format("minimum step x {:g}", p.setting.minimum_step);
     }
     return "";
 }

@@ -77,6 +77,7 @@ const std::vector<Column>& columns() {
         FARFIELD_COLUMN("ao_radius_m", true, measurement.setting.ao_radius),
         FARFIELD_COLUMN("bounces", true, measurement.setting.bounces),
         FARFIELD_COLUMN("scale", true, measurement.setting.scale),
+        FARFIELD_COLUMN("minimum_step", true, measurement.setting.minimum_step),
         FARFIELD_COLUMN("seed", true, measurement.seed),
         FARFIELD_COLUMN("seconds", false, measurement.seconds),
         FARFIELD_COLUMN("rmse_over_mean", false, measurement.rmse_over_mean),

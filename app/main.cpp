@@ -146,6 +146,7 @@ void choose_varied(SweepPlan& plan, const std::string& text) {
     drop_unless("ao_radius", plan.ao_factors);
     drop_unless("bounces", plan.bounces);
     drop_unless("scale", plan.scales);
+    drop_unless("minimum_step", plan.minimum_steps);
 }
 
 void add_trust(CLI::App& command, bool& trust) {
@@ -289,8 +290,8 @@ int run(int argc, char** argv) {
     chart_command
         ->add_option_function<std::string>(
             "--vary", [&](const std::string& text) { choose_varied(chart.plan, text); },
-            "Settings to vary one at a time beside method and samples: any of blur_levels, ao_radius, bounces, scale "
-            "with commas between them, or none; default all")
+            "Settings to vary one at a time beside method and samples: any of blur_levels, ao_radius, bounces, scale, "
+            "minimum_step with commas between them, or none; default all")
         ->type_name("NAME,...");
     add_trust(*chart_command, chart.trust_code);
     chart_command->footer(

@@ -46,6 +46,7 @@ FrameRecord frame_record(const Scene& scene, const FrameOptions& options, int fr
     record.sky_horizon = scene.sky.horizon;
     record.light_count = static_cast<int>(scene.lights.size());
     record.sky_zenith = scene.sky.zenith;
+    record.minimum_step = std::log2(options.minimum_step);
     record.image_size = options.size;
     return record;
 }

@@ -27,6 +27,7 @@ struct FrameOptions {
     Id tuned = 0;                   ///< node with live parameters in the specialised tier
     int samples = 0;                ///< hemisphere rays per pixel and frame; 0: the scene's setting
     bool counting = false;          ///< count rays and evaluations; costs a little
+    float minimum_step = 1.0f;      ///< of the tracer, times the usual: how far off hits may be
     bool occlusion = true;          ///< trace ambient occlusion; Method::reference needs none
     std::size_t batch =
         Batch::capacity;  ///< pixels for each step, at most Batch::capacity; changes no bit of the picture

@@ -70,7 +70,8 @@ Sweep::Sweep(Scene scene, SweepPlan plan) : scene_(std::move(scene)), plan_(std:
     for (const int samples : plan_.samples) frame_samples_ = std::gcd(frame_samples_, samples);
 
     for (std::uint32_t seed = 1; seed <= static_cast<std::uint32_t>(plan_.seeds); ++seed) {
-        SweepRun run{own.ao_radius, own.bounces, 1.0f, seed, own.bounces, own_readings(Varied::none, own.blur_levels)};
+        SweepRun run{
+            own.ao_radius, own.bounces, 1.0f, 1.0f, seed, own.bounces, own_readings(Varied::none, own.blur_levels)};
         for (const int levels : plan_.blur_levels) {
             if (levels == own.blur_levels) continue;
             run.readings.push_back({Varied::blur_levels, Method::paper, levels});
@@ -92,6 +93,13 @@ Sweep::Sweep(Scene scene, SweepPlan plan) : scene_(std::move(scene)), plan_(std:
             runs_.push_back(run);
         }
         run.scale = 1.0f;
+        for (const float step : plan_.minimum_steps) {
+            if (step == 1.0f) continue;
+            run.readings = own_readings(Varied::minimum_step, own.blur_levels);
+            run.minimum_step = step;
+            runs_.push_back(run);
+        }
+        run.minimum_step = 1.0f;
         for (const int bounces : plan_.bounces) {
             run.readings = own_readings(Varied::bounces, own.blur_levels);
             run.bounces = bounces;
@@ -121,7 +129,8 @@ std::vector<Measurement> Sweep::expected(const SweepRun& run) const {
         for (const SweepRun::Reading& reading : run.readings) {
             Measurement m;
             m.varied = reading.varied;
-            m.setting = {reading.method, samples, reading.blur_levels, run.ao_radius, run.bounces, run.scale};
+            m.setting = {reading.method, samples,   reading.blur_levels, run.ao_radius,
+                         run.bounces,    run.scale, run.minimum_step};
             m.frame_samples = frame_samples_;
             m.seed = run.seed;
             m.reference_bounces = run.reference_bounces;
@@ -139,6 +148,7 @@ bool Sweep::measure(Renderer& renderer, const SweepRun& run, const Reference& re
     options.size = scaled(plan_.size, run.scale);
     options.seed = run.seed;
     options.samples = frame_samples_;
+    options.minimum_step = run.minimum_step;
     const Image truth = reference.indirect(), shown = exposed(reference.result(), scene.settings.exposure);
     const double truth_mean = mean(truth);
     const gl::Texture display("display", GL_RGBA8, options.size);

@@ -3,7 +3,8 @@
 //
 // Design: all combinations would be too many, so one setting is varied at a time around the scene's own, and method and
 // samples in full beside it. Methods and blur levels are views of the same accumulated samples (see METHOD.md), so one
-// run (seed, AO radius, bounces, scale) accumulates once, stops at each number of samples and reads off all of them.
+// run (seed, AO radius, bounces, scale, minimum step) accumulates once, stops at each number of samples and reads off
+// all of them.
 //
 // Time of a measurement: tracing that many samples, as it adds up over the frames, plus making one picture of them
 // (filter, synthesis, display). The reference is charged without ambient occlusion, which it does not use. Where the
@@ -23,8 +24,8 @@
 namespace farfield {
 
 /// What a measurement's settings differ in from the scene's own; method and samples aside.
-enum class Varied { none, blur_levels, ao_radius, bounces, scale };
-inline constexpr const char* varied_keys[] = {"none", "blur_levels", "ao_radius", "bounces", "scale"};
+enum class Varied { none, blur_levels, ao_radius, bounces, scale, minimum_step };
+inline constexpr const char* varied_keys[] = {"none", "blur_levels", "ao_radius", "bounces", "scale", "minimum_step"};
 
 struct SweepPlan {
     glm::ivec2 size{256, 256};                 ///< pixels
@@ -36,7 +37,8 @@ struct SweepPlan {
     std::vector<float> ao_factors{0.25f, 0.5f, 2.0f, 4.0f};  ///< times the scene's own AO radius
     std::vector<int> bounces{1, 2,
                              4};  ///< against a reference with as many as the largest of these and the scene's own
-    std::vector<float> scales{0.5f, 0.25f};  ///< of width and height, magnified for comparison
+    std::vector<float> minimum_steps{4.0f, 16.0f, 64.0f};  ///< times the usual; see FrameOptions
+    std::vector<float> scales{0.5f, 0.25f};                ///< of width and height, magnified for comparison
 };
 
 struct Setting {
@@ -46,6 +48,7 @@ struct Setting {
     float ao_radius = 0.0f;  ///< metres
     int bounces = 0;
     float scale = 1.0f;
+    float minimum_step = 1.0f;
     friend bool operator==(const Setting&, const Setting&) = default;
 };
 
@@ -76,6 +79,7 @@ struct SweepRun {
     float ao_radius = 0.0f;
     int bounces = 0;
     float scale = 1.0f;
+    float minimum_step = 1.0f;
     std::uint32_t seed = 0;
     int reference_bounces = 0;
     std::vector<Reading> readings;

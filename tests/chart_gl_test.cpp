@@ -161,9 +161,10 @@ TEST_F(Charts, ASweepMeasuresWhatItSaysAndStopsWhenTold) {
                    .blur_levels = {0, 3},
                    .ao_factors = {0.5f},
                    .bounces = {1, 2},
+                   .minimum_steps = {8.0f},
                    .scales = {0.5f}};
     Sweep sweep(scene_, plan);
-    EXPECT_EQ(sweep.runs().size(), 2u * 5u);
+    EXPECT_EQ(sweep.runs().size(), 2u * 6u);
     EXPECT_EQ(sweep.reference_bounces(), (std::vector<int>{1, 2}));
     Reference reference;
     grow(reference, 128);
@@ -213,6 +214,20 @@ TEST_F(Charts, ASweepMeasuresWhatItSaysAndStopsWhenTold) {
         *renderer_, sweep.runs()[0], reference, [&] { return ++frames < 2; },
         [&](const Measurement& m) { again.push_back(m); }));
     EXPECT_EQ(again.size(), sweep.runs()[0].readings.size()) << "what the first frame gave";
+}
+
+TEST_F(Charts, ALongerMinimumStepTakesFewerEvaluationsAndIsLessExact) {
+    std::vector<std::uint64_t> evaluations;
+    std::vector<Image> images;
+    for (const float step : {1.0f, 16.0f, 256.0f}) {
+        renderer_->update(scene_, {.size = size, .samples = 8, .counting = true, .minimum_step = step});
+        renderer_->render_frame();
+        evaluations.push_back(renderer_->statistics().evaluations);
+        images.push_back(renderer_->read(View::depth));
+    }
+    EXPECT_LT(evaluations[1], evaluations[0]);
+    EXPECT_LT(evaluations[2], evaluations[1]);
+    EXPECT_LT(compare(images[0], images[1]).rmse, compare(images[0], images[2]).rmse);
 }
 
 Measurement measured(Method method, int samples, std::uint32_t seed, double seconds, double error, double noise) {
