@@ -2,6 +2,7 @@
 
 #include "app/chart_plot.h"
 #include "app/chart_table.h"
+#include "app/chart_tables.h"
 #include "app/commands.h"
 #include "app/progress.h"
 #include "renderer/metrics.h"

@@ -5,11 +5,16 @@
 #include <sha2.h>
 
 #include <algorithm>
+#include <sstream>
 
 namespace farfield {
 namespace {
 
-constexpr int version = 1;                         // of the renderer's light transport
+// Shaders that decide what a reference is; with common.glsl, which stands in front of each.
+constexpr const char* transport_shaders[] = {"trace.glsl",  "camera.glsl",     "gbuffer.glsl", "light_rays.glsl",
+                                             "direct.glsl", "hemisphere.glsl", "bounce.glsl",  "bounce_light.glsl",
+                                             "gather.glsl", "synthesis.glsl"};
+constexpr int version = 1;                         // of what else decides: raise it when passes.cpp follows paths anew
 constexpr int frame_samples = 8;                   // for each camera ray of a pixel, which antialiases
 constexpr int portion_samples = 1024;              // what an interrupted run loses at most
 constexpr std::uint32_t first_seed = 0x5eed0000u;  // far from those that people give
@@ -20,6 +25,18 @@ int half_of(int samples) { return (samples + 1) / 2; }
 int next_portion(const ReferenceHalf& half, int samples) {
     const int wanted = std::max(half_of(samples) - half.samples, 0);
     return std::min(portion_samples, (wanted + frame_samples - 1) / frame_samples * frame_samples);
+}
+
+/// The lines of a shader that say something, without their comments: a better comment is no other light.
+std::string without_comments(const std::string& code) {
+    std::istringstream in(code);
+    std::string result, line;
+    while (std::getline(in, line)) {
+        line.erase(std::min(line.find("//"), line.size()));
+        line.erase(line.find_last_not_of(" \t") + 1);
+        if (!line.empty() && !line.starts_with("#line")) result += line + "\n";
+    }
+    return result;
 }
 
 /// `mean` of `samples` becomes that of `samples` + `more`.
@@ -69,8 +86,13 @@ std::string sha256(std::string_view bytes) {
 }
 
 std::string reference_key(const Scene& scene, glm::ivec2 size) {
+    static const std::string shaders = [] {
+        std::string code;
+        for (const char* name : transport_shaders) code += without_comments(shader_source(name));
+        return sha256(code);
+    }();
     const int numbers[] = {version, frame_samples, size.x, size.y};
-    std::string bytes = transport_bytes(scene, FrameOptions{});
+    std::string bytes = transport_bytes(scene, FrameOptions{}) + shaders;
     bytes.append(reinterpret_cast<const char*>(numbers), sizeof numbers);
     return sha256(bytes);
 }

@@ -33,8 +33,8 @@ struct Reference {
     double noise_relative_mse() const;
 };
 
-/// SHA-256 of all that a reference depends on, 64 hexadecimal digits: `transport_bytes` (of seed 0), size, and a
-/// version to raise when the renderer's light transport changes.
+/// SHA-256 of all that a reference depends on, 64 hexadecimal digits: `transport_bytes` (of seed 0), size, and the code
+/// of the shaders that take part.
 std::string reference_key(const Scene& scene, glm::ivec2 size);
 
 std::string sha256(std::string_view bytes);  ///< 64 hexadecimal digits
