@@ -24,11 +24,8 @@ namespace fs = std::filesystem;
 class SceneChart {
 public:
     SceneChart(std::string name, const Scene& scene, const SweepPlan& plan) : plan_(plan), sweep_(scene, plan) {
-        const Settings& s = scene.settings;
         line_.scene = std::move(name);
-        line_.hash = sha256(fmt::format("{} {} {} {} {}", reference_key(scene, plan.size), s.samples, s.blur_levels,
-                                        s.ao_radius, s.exposure))
-                         .substr(0, 12);
+        line_.hash = measurement_key(scene, plan.size).substr(0, 12);
         line_.size = plan.size;
     }
 

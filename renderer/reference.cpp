@@ -10,10 +10,6 @@
 namespace farfield {
 namespace {
 
-// Shaders that decide what a reference is; with common.glsl, which stands in front of each.
-constexpr const char* transport_shaders[] = {"trace.glsl",  "camera.glsl",     "gbuffer.glsl", "light_rays.glsl",
-                                             "direct.glsl", "hemisphere.glsl", "bounce.glsl",  "bounce_light.glsl",
-                                             "gather.glsl", "synthesis.glsl"};
 constexpr int version = 1;                         // of what else decides: raise it when passes.cpp follows paths anew
 constexpr int frame_samples = 8;                   // for each camera ray of a pixel, which antialiases
 constexpr int portion_samples = 1024;              // what an interrupted run loses at most
@@ -27,16 +23,10 @@ int next_portion(const ReferenceHalf& half, int samples) {
     return std::min(portion_samples, (wanted + frame_samples - 1) / frame_samples * frame_samples);
 }
 
-/// The lines of a shader that say something, without their comments: a better comment is no other light.
-std::string without_comments(const std::string& code) {
-    std::istringstream in(code);
-    std::string result, line;
-    while (std::getline(in, line)) {
-        line.erase(std::min(line.find("//"), line.size()));
-        line.erase(line.find_last_not_of(" \t") + 1);
-        if (!line.empty() && !line.starts_with("#line")) result += line + "\n";
-    }
-    return result;
+/// Whether a shader reads what was accumulated and adds nothing to a reference.
+bool only_shows(std::string_view shader) {
+    return shader.starts_with("wavelet") || shader.starts_with("filter") || shader == "occlusion.glsl" ||
+           shader == "display.glsl";
 }
 
 /// `mean` of `samples` becomes that of `samples` + `more`.
@@ -85,12 +75,24 @@ std::string sha256(std::string_view bytes) {
     return digits;
 }
 
+std::string shader_hash(bool all) {
+    std::string code;
+    for (std::string_view names = FARFIELD_SHADERS; !names.empty();) {
+        const std::string_view name = names.substr(0, names.find('|'));
+        names.remove_prefix(std::min(name.size() + 1, names.size()));
+        if (!all && only_shows(name)) continue;
+        std::istringstream in(shader_source(name));
+        for (std::string line; std::getline(in, line);) {
+            line.erase(std::min(line.find("//"), line.size()));  // a better comment is no other light
+            line.erase(line.find_last_not_of(" \t") + 1);
+            if (!line.empty() && !line.starts_with("#line")) code += line + "\n";
+        }
+    }
+    return sha256(code);
+}
+
 std::string reference_key(const Scene& scene, glm::ivec2 size) {
-    static const std::string shaders = [] {
-        std::string code;
-        for (const char* name : transport_shaders) code += without_comments(shader_source(name));
-        return sha256(code);
-    }();
+    static const std::string shaders = shader_hash(false);
     const int numbers[] = {version, frame_samples, size.x, size.y};
     std::string bytes = transport_bytes(scene, FrameOptions{}) + shaders;
     bytes.append(reinterpret_cast<const char*>(numbers), sizeof numbers);

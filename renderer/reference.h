@@ -37,6 +37,9 @@ struct Reference {
 /// of the shaders that take part.
 std::string reference_key(const Scene& scene, glm::ivec2 size);
 
+/// SHA-256 of the shaders' code but for comments: of all, or of those that a reference depends on.
+std::string shader_hash(bool all);
+
 std::string sha256(std::string_view bytes);  ///< 64 hexadecimal digits
 
 /// Adds portions until there are at least so many samples, half of them in each half; needs a current context. Calls

@@ -3,6 +3,8 @@
 #include "renderer/flip.h"
 #include "renderer/metrics.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -63,6 +65,13 @@ glm::ivec2 scaled(glm::ivec2 size, float scale) {
 }
 
 }  // namespace
+
+std::string measurement_key(const Scene& scene, glm::ivec2 size) {
+    static const std::string shaders = shader_hash(true);
+    const Settings& s = scene.settings;
+    return sha256(fmt::format("{} {} {} {} {} {}", reference_key(scene, size), shaders, s.samples, s.blur_levels,
+                              s.ao_radius, s.exposure));
+}
 
 Sweep::Sweep(Scene scene, SweepPlan plan) : scene_(std::move(scene)), plan_(std::move(plan)) {
     const Settings& own = scene_.settings;

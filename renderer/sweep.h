@@ -85,6 +85,9 @@ struct SweepRun {
     std::vector<Reading> readings;
 };
 
+/// SHA-256 of all that measurements of a scene depend on beside what they say themselves, 64 hexadecimal digits.
+std::string measurement_key(const Scene& scene, glm::ivec2 size);
+
 class Sweep {
 public:
     Sweep(Scene scene, SweepPlan plan);
