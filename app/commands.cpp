@@ -14,7 +14,6 @@
 #include <cctype>
 #include <charconv>
 #include <chrono>
-#include <ctime>
 #include <numeric>
 
 namespace farfield {
@@ -50,8 +49,6 @@ struct Headless {
     std::unique_ptr<Context> context;
     std::optional<Renderer> renderer;  ///< goes before its context
 };
-
-double cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
@@ -169,18 +166,18 @@ int run_bench(const BenchOptions& options) {
         const char* name = tier == Tier::live ? "live" : "specialised";
         frame.tier = tier;
         frame.counting = false;
-        const double compile_start = cpu_seconds();
+        const double compile_start = process_cpu_seconds();
         renderer.update(scene, frame);
         fmt::print("\n{} program: compiled in {:.0f} ms, process CPU time {:.0f} ms\n", name,
-                   renderer.statistics().compile_milliseconds, 1e3 * (cpu_seconds() - compile_start));
+                   renderer.statistics().compile_milliseconds, 1e3 * (process_cpu_seconds() - compile_start));
         renderer.render_frame();
         std::vector<double> cpu, wall;
         std::vector<PassTime> passes;
         for (int i = 0; i < options.frames; ++i) {
-            const double cpu_start = cpu_seconds();
+            const double cpu_start = process_cpu_seconds();
             const auto wall_start = std::chrono::steady_clock::now();
             renderer.render_frame();
-            cpu.push_back(cpu_seconds() - cpu_start);
+            cpu.push_back(process_cpu_seconds() - cpu_start);
             wall.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count());
             passes = renderer.statistics().passes;
         }

@@ -1,6 +1,9 @@
 // The command line: `farfield [SCENE]` opens the editor, the subcommands work without a window.
+#include "app/chart.h"
+#include "app/chart_table.h"
 #include "app/check.h"
 #include "app/commands.h"
+#include "app/compare.h"
 #include "app/contact_sheet.h"
 #include "app/editor.h"
 #include "renderer/gl.h"
@@ -25,9 +28,9 @@ namespace {
     throw CLI::ValidationError(option, fmt::format("\"{}\" given, expected {}", found, expected));
 }
 
-/// All of the text as a whole number, with a sign or without.
+/// All of the text as a number, with a sign or without.
 template <class T>
-bool read_whole(std::string_view text, T& value) {
+bool read_number(std::string_view text, T& value) {
     if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     return error == std::errc() && end == text.data() + text.size();
@@ -40,8 +43,8 @@ glm::ivec2 parse_size(std::string_view text) {
     constexpr std::int64_t most = 8192 * 4096;
     glm::ivec2 size{0};
     const std::size_t cross = text.find('x');
-    const bool read = cross != std::string_view::npos && read_whole(text.substr(0, cross), size.x) &&
-                      read_whole(text.substr(cross + 1), size.y);
+    const bool read = cross != std::string_view::npos && read_number(text.substr(0, cross), size.x) &&
+                      read_number(text.substr(cross + 1), size.y);
     if (!read || size.x < 1 || size.y < 1 || size.x > longest || size.y > longest)
         refuse("--size", std::string(text), fmt::format("WIDTHxHEIGHT, each between 1 and {}", longest));
     if (static_cast<std::int64_t>(size.x) * size.y > most)
@@ -54,11 +57,42 @@ template <class T>
 void add_whole(CLI::App& command, const std::string& option, T& to, T low, T high, const std::string& help) {
     const auto read = [=, &to](const std::string& text) {
         T value = 0;
-        if (!read_whole(text, value) || value < low || value > high)
+        if (!read_number(text, value) || value < low || value > high)
             refuse(option, text, fmt::format("a whole number between {} and {}", low, high));
         to = value;
     };
     command.add_option_function<std::string>(option, read, help)->type_name("NUMBER");
+}
+
+/// An option for a real number.
+void add_number(CLI::App& command, const std::string& option, float& to, float low, float high,
+                const std::string& help) {
+    const auto read = [=, &to](const std::string& text) {
+        float value = 0.0f;
+        if (!read_number(text, value) || !(value >= low && value <= high))
+            refuse(option, text, fmt::format("a number between {} and {}", low, high));
+        to = value;
+    };
+    command.add_option_function<std::string>(option, read, help)->type_name("NUMBER");
+}
+
+/// An option for whole numbers with commas between them; sorted, each once.
+void add_whole_list(CLI::App& command, const std::string& option, std::vector<int>& to, int low, int high,
+                    const std::string& help) {
+    const auto read = [=, &to](const std::string& text) {
+        std::vector<int> values;
+        for (const std::string& item : CLI::detail::split(text, ',')) {
+            int value = 0;
+            if (!read_number(item, value) || value < low || value > high)
+                refuse(option, text,
+                       fmt::format("whole numbers between {} and {} with commas between them", low, high));
+            values.push_back(value);
+        }
+        std::sort(values.begin(), values.end());
+        values.erase(std::unique(values.begin(), values.end()), values.end());
+        to = values;
+    };
+    command.add_option_function<std::string>(option, read, help)->type_name("N,N,...");
 }
 
 constexpr std::pair<const char*, ContextKind> contexts[] = {
@@ -95,6 +129,24 @@ void add_common(CLI::App& command, glm::ivec2& size, ContextKind& context, Overr
                 fmt::format("{} (default: the scene's)", p.tip))
             ->type_name(p.choices.empty() ? "NUMBER" : fmt::format("{}", fmt::join(p.choices, "|")));
     }
+}
+
+/// Leaves of the plan what is named.
+void choose_varied(SweepPlan& plan, const std::string& text) {
+    std::vector<std::string> names = CLI::detail::split(text, ',');
+    if (text == "none") names.clear();
+    const std::string known = fmt::format("{}", fmt::join(varied_keys + 1, std::end(varied_keys), ", "));
+    for (const std::string& name : names)
+        if (std::find(varied_keys + 1, std::end(varied_keys), name) == std::end(varied_keys))
+            refuse("--vary", text, fmt::format("none, or some of {} with commas between them", known));
+    const auto drop_unless = [&](const char* name, auto& values) {
+        if (std::find(names.begin(), names.end(), name) == names.end()) values.clear();
+    };
+    drop_unless("blur_levels", plan.blur_levels);
+    drop_unless("ao_radius", plan.ao_factors);
+    drop_unless("bounces", plan.bounces);
+    drop_unless("scale", plan.scales);
+    drop_unless("minimum_step", plan.minimum_steps);
 }
 
 void add_trust(CLI::App& command, bool& trust) {
@@ -206,6 +258,51 @@ int run(int argc, char** argv) {
         ->type_name("KEY");
     add_whole(*sheet_command, "--frames", sheet.frames, 1, 1'000'000, "Frames to accumulate, default 16");
 
+    CompareOptions compare;
+    CLI::App* compare_command = app.add_subcommand("compare", "How far an image is from a reference, by every metric");
+    compare_command->add_option("IMAGE", compare.image, "EXR (linear) or PNG (sRGB)")->required();
+    compare_command->add_option("REFERENCE", compare.reference, "What it should be")->required();
+    compare_command->add_option("--layer", compare.layer, "Of EXR files, as \"direct\"; default the file's own R, G, B")
+        ->type_name("NAME");
+    add_number(*compare_command, "--exposure", compare.exposure, -20.0f, 20.0f,
+               "Stops, for FLIP, which compares what a screen shows; default 0");
+    compare_command->footer(
+        "RMSE / mean, relMSE and mean bias (of the image, less that of the reference) are relative to the reference's\n"
+        "mean and count linear values; FLIP (Andersson et al. 2020) is 0 for pictures that look alike and at most 1.");
+
+    ChartOptions chart;
+    CLI::App* chart_command = app.add_subcommand("chart", "Speed against accuracy of scenes: CSV, SVG, PNG, tables");
+    chart_command->add_option("SCENE", chart.scenes, "Scene files")->required();
+    chart_command->add_option("-o,--output", chart.output, "Folder for chart.csv, chart.svg, chart.png and tables.md")
+        ->required()
+        ->type_name("DIR");
+    add_device(*chart_command, "Pixels", chart.plan.size, chart.context);
+    add_whole_list(*chart_command, "--samples", chart.plan.samples, 1, 1'000'000,
+                   "Samples per pixel to measure at, default 4,16,64,256");
+    add_whole(*chart_command, "--seeds", chart.plan.seeds, 1, 1000, "Repetitions with another noise, default 10");
+    add_whole(*chart_command, "--reference-samples", chart.plan.reference_samples, 2, 100'000'000,
+              "Samples per pixel of references, at least; default 16384");
+    chart_command
+        ->add_option("--references", chart.references,
+                     "Folder where references are kept for the next time, default farfield/references in the user's "
+                     "cache")
+        ->type_name("DIR");
+    chart_command
+        ->add_option_function<std::string>(
+            "--vary", [&](const std::string& text) { choose_varied(chart.plan, text); },
+            "Settings to vary one at a time beside method and samples: any of blur_levels, ao_radius, bounces, scale, "
+            "minimum_step with commas between them, or none; default all")
+        ->type_name("NAME,...");
+    add_trust(*chart_command, chart.trust_code);
+    chart_command->footer(
+        "Every method at every number of samples with the scene's own settings, and around them one setting varied at "
+        "a\n"
+        "time; see renderer/sweep.h. Lines that chart.csv has already are not measured again: an interrupted run goes "
+        "on,\n"
+        "a changed scene is measured anew. Columns (time in seconds, of the process on all its CPU cores, or of the "
+        "GPU):\n" +
+        chart_columns());
+
     try {
         app.parse(argc, argv);
         int status = 0;
@@ -219,6 +316,10 @@ int run(int argc, char** argv) {
             status = run_schema();
         else if (*sheet_command)
             status = run_contact_sheet(sheet);
+        else if (*compare_command)
+            status = run_compare(compare);
+        else if (*chart_command)
+            status = run_chart(chart);
         else if (*bench_command)
             status = run_bench(bench);
         else

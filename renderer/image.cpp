@@ -7,7 +7,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <functional>
 #include <string_view>
 
 namespace farfield {
@@ -43,14 +45,33 @@ OIIO::ImageBuf as_buffer(const Image& image) {
     return OIIO::ImageBuf(spec, const_cast<float*>(image.pixels.data()));
 }
 
+/// "R" and "direct.R" are of the layers "" and "direct".
+std::string_view layer_of(std::string_view channel) {
+    const std::size_t dot = channel.rfind('.');
+    return dot == channel.npos ? std::string_view() : channel.substr(0, dot);
+}
+
+std::string layer_names(const std::vector<std::string>& channels) {
+    std::string names;
+    for (const std::string& channel : channels) {
+        const std::string_view layer = layer_of(channel);
+        if (!channel.ends_with('R') || layer.empty()) continue;
+        names += fmt::format("{}{}", names.empty() ? "" : ", ", layer);
+    }
+    return names.empty() ? "no layers" : "layers " + names;
+}
+
+float from_srgb(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
+
 }  // namespace
 
-void write_exr(const fs::path& file, const std::vector<Layer>& layers) {
+void write_exr(const fs::path& file, const std::vector<Layer>& layers, const Attributes& attributes) {
     const glm::ivec2 size = layers.at(0).image.size;
     const int channels = static_cast<int>(layers.size()) * 3;
     OIIO::ImageSpec spec(size.x, size.y, channels, OIIO::TypeDesc::FLOAT);
     spec.attribute("compression", "zip");
     spec.attribute("oiio:ColorSpace", "Linear");
+    for (const auto& [name, value] : attributes) spec.attribute(name, value);
     spec.channelnames.clear();
     std::vector<float> data(static_cast<std::size_t>(size.x) * size.y * channels);
     for (std::size_t layer = 0; layer < layers.size(); ++layer) {
@@ -82,6 +103,56 @@ Image read_image(const fs::path& file) {
     roi.chend = 3;
     buffer.get_pixels(roi, OIIO::TypeDesc::FLOAT, image.pixels.data());
     return image;
+}
+
+Image read_linear(const fs::path& file, std::string_view layer) {
+    OIIO::ImageBuf buffer(file.string());
+    if (!buffer.read(0, 0, true, OIIO::TypeDesc::FLOAT))
+        throw ImageError(fmt::format("{}: cannot be read: {}", file.string(), buffer.geterror()));
+    const OIIO::ImageSpec& spec = buffer.spec();
+    Image image{{spec.width, spec.height}, std::vector<float>(static_cast<std::size_t>(spec.width) * spec.height * 3)};
+    const std::string prefix = layer.empty() ? "" : std::string(layer) + ".";
+    for (std::size_t i = 0; i < 3; ++i) {
+        const int channel = spec.channelindex(prefix + std::array{"R", "G", "B"}[i]);
+        if (channel < 0)
+            throw ImageError(fmt::format("{}: has no channels {}R, {}G, {}B, but {}", file.string(), prefix, prefix,
+                                         prefix, layer_names(spec.channelnames)));
+        OIIO::ROI roi = buffer.roi();
+        roi.chbegin = channel;
+        roi.chend = channel + 1;
+        std::vector<float> values(image.pixels.size() / 3);
+        buffer.get_pixels(roi, OIIO::TypeDesc::FLOAT, values.data());
+        for (std::size_t pixel = 0; pixel < values.size(); ++pixel) image.pixels[3 * pixel + i] = values[pixel];
+    }
+    if (!buffer.file_format_name().empty() && !buffer.nativespec().format.is_floating_point())
+        std::transform(image.pixels.begin(), image.pixels.end(), image.pixels.begin(), from_srgb);
+    return image;
+}
+
+std::string read_attribute(const fs::path& file, const std::string& name) {
+    const auto input = OIIO::ImageInput::open(file.string());
+    if (!input) throw ImageError(fmt::format("{}: cannot be read: {}", file.string(), OIIO::geterror()));
+    return std::string(input->spec().get_string_attribute(name));
+}
+
+Image exposed(Image image, float exposure) {
+    const float factor = std::exp2(exposure);
+    for (float& v : image.pixels) v = std::clamp(v * factor, 0.0f, 1.0f);
+    return image;
+}
+
+Image difference(const Image& a, const Image& b) {
+    Image result = a;
+    std::transform(a.pixels.begin(), a.pixels.end(), b.pixels.begin(), result.pixels.begin(), std::minus<>());
+    return result;
+}
+
+Image resized(const Image& image, glm::ivec2 size) {
+    if (image.size == size) return image;
+    Image result{size, std::vector<float>(static_cast<std::size_t>(size.x) * size.y * 3)};
+    OIIO::ImageBuf to = as_buffer(result);
+    if (!OIIO::ImageBufAlgo::resample(to, as_buffer(image), true)) throw ImageError(to.geterror());
+    return result;
 }
 
 Difference compare(const Image& a, const Image& b) {

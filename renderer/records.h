@@ -21,7 +21,7 @@ struct FrameRecord {
     glm::vec3 sky_horizon;
     std::int32_t light_count;
     glm::vec3 sky_zenith;
-    float unused;
+    float minimum_step;
     glm::ivec2 image_size;
     glm::ivec2 padding;
 };

@@ -46,6 +46,7 @@ FrameRecord frame_record(const Scene& scene, const FrameOptions& options, int fr
     record.sky_horizon = scene.sky.horizon;
     record.light_count = static_cast<int>(scene.lights.size());
     record.sky_zenith = scene.sky.zenith;
+    record.minimum_step = std::log2(options.minimum_step);
     record.image_size = options.size;
     return record;
 }
@@ -67,8 +68,8 @@ std::vector<LightRecord> light_records(const Scene& scene) {
     return records;
 }
 
-/// Everything that accumulated samples depend on, as bytes to compare: geometry (the live code and its parameters),
-/// materials, lights, sky, camera, seed, bounces. The size of the picture stands apart.
+}  // namespace
+
 std::string transport_bytes(const Scene& scene, FrameOptions options) {
     options.size = {1, 1};
     const GeneratedScene generated = generate(scene, Tier::live);
@@ -80,8 +81,6 @@ std::string transport_bytes(const Scene& scene, FrameOptions options) {
     append_bytes(bytes, scene.settings.bounces);
     return bytes;
 }
-
-}  // namespace
 
 Renderer::Renderer() {
     counters_.resize(sizeof(CounterRecord));

@@ -27,9 +27,15 @@ struct FrameOptions {
     Id tuned = 0;                   ///< node with live parameters in the specialised tier
     int samples = 0;                ///< hemisphere rays per pixel and frame; 0: the scene's setting
     bool counting = false;          ///< count rays and evaluations; costs a little
+    float minimum_step = 1.0f;      ///< of the tracer, times the usual: how far off hits may be
+    bool occlusion = true;          ///< trace ambient occlusion; Method::reference needs none
     std::size_t batch =
         Batch::capacity;  ///< pixels for each step, at most Batch::capacity; changes no bit of the picture
 };
+
+/// Everything that accumulated samples depend on, as bytes to compare: geometry (the live code and its parameters),
+/// materials, lights, sky, camera, seed, bounces. The size of the picture stands apart.
+std::string transport_bytes(const Scene& scene, FrameOptions options);
 
 class Renderer {
 public:
@@ -48,6 +54,9 @@ public:
     /// Whether an update has succeeded so far; nothing below may be called before.
     bool ready() const { return targets_.has_value(); }
 
+    /// Drops all accumulated samples; the next frame is the first again.
+    void discard();
+
     /// One bounded piece of the current frame. True when that finished the frame.
     bool step();
     /// Whether there is something to show: the whole picture has direct light and a sample of far light.
@@ -63,14 +72,13 @@ public:
     glm::ivec2 size() const { return options_.size; }
 
 private:
-    void discard();
     void begin_frame();
     void finish_frame();
     void synthesise(View view);
     Work next_work() const;
     /// For each far-light sample. One ray alone answers black or white, so the first sample takes more: a first picture
     /// without speckle for a few percent of its time.
-    unsigned occlusion_rays() const { return occlusion_samples_ == 0 ? 4 : 1; }
+    unsigned occlusion_rays() const { return !options_.occlusion ? 0 : occlusion_samples_ == 0 ? 4 : 1; }
 
     TracePrograms programs_;
     CameraPass camera_pass_;

@@ -1,6 +1,7 @@
 #include "renderer/timers.h"
 
 #include <algorithm>
+#include <ctime>
 
 namespace farfield {
 namespace {
@@ -12,6 +13,8 @@ gl::Handle<gl::QueryTraits> make_query() {
 }
 
 }  // namespace
+
+double process_cpu_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 Timers::Scope::Scope(Timers& timers, const char* name) : timers_(timers), index_(timers.used_++) {
     if (index_ == timers.intervals_.size()) timers.intervals_.push_back({name, make_query(), make_query()});

@@ -8,6 +8,9 @@
 
 namespace farfield {
 
+/// CPU time of the process so far, all threads: what work costs where the CPU renders, whoever else uses it.
+double process_cpu_seconds();
+
 class Timers {
 public:
     /// Between construction and destruction of the scope the pass's time runs. Names must be literals.

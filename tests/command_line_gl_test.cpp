@@ -1,47 +1,27 @@
 // The program as scripts use it: exit statuses, messages, files.
 #include "renderer/image.h"
 #include "renderer/views.h"
+#include "tests/program.h"
 #include "tests/test_support.h"
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <set>
 
 namespace farfield {
 namespace {
 
-struct Outcome {
-    int status = -1;
-    std::string output;  ///< stdout and stderr
-};
-
-/// `before`: shell commands to run first.
-Outcome farfield_command(const std::string& arguments, const char* before = "") {
-    Outcome outcome;
-    const std::string command =
-        fmt::format("exec 2>&1; {}env -u DISPLAY -u WAYLAND_DISPLAY '{}' {}", before, FARFIELD_PROGRAM, arguments);
-    FILE* pipe = popen(command.c_str(), "r");
-    if (!pipe) return outcome;
-    std::array<char, 4096> buffer{};
-    while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe)) outcome.output.append(buffer.data(), n);
-    const int status = pclose(pipe);
-    if (WIFEXITED(status)) outcome.status = WEXITSTATUS(status);
-    return outcome;
-}
-
-std::string scene(const char* name) { return fmt::format("'{}/{}.json'", FARFIELD_SCENES, name); }
-
 TEST(CommandLine, HelpNamesEveryCommandAndNeedsNoDisplay) {
     const Outcome help = farfield_command("--help");
     EXPECT_EQ(help.status, 0);
     for (const char* word :
-         {"render", "glsl", "check", "schema", "contact-sheet", "bench", "SCENE", "scenes/README.md"})
+         {"render", "glsl", "check", "schema", "contact-sheet", "compare", "bench", "SCENE", "scenes/README.md"})
         EXPECT_NE(help.output.find(word), std::string::npos) << word;
     const Outcome render = farfield_command("render --help");
     EXPECT_EQ(render.status, 0);
@@ -159,6 +139,36 @@ TEST(CommandLine, AContactSheetShowsTheKindsAskedFor) {
     EXPECT_EQ(sheet("wrong.exr", "--only torus").status, 2);
     EXPECT_EQ(sheet("no/folder.png", "--only torus").status, 1);
     EXPECT_FALSE(std::filesystem::exists(folder / "wrong.png"));
+}
+
+TEST(CommandLine, CompareMeasuresLayersAndDisplayFiles) {
+    const TemporaryFolder folder;
+    const auto file = [&](const char* name) { return fmt::format("'{}'", (folder / name).string()); };
+    const Image one{{2, 1}, {1, 1, 1, 1, 1, 1}}, two{{2, 1}, {2, 2, 2, 1, 1, 1}};
+    write_exr(folder / "a.exr", {{"", one}, {"direct", two}});
+    write_exr(folder / "b.exr", {{"", one}, {"direct", one}});
+    write_exr(folder / "nan.exr", {{"", Image{{2, 1}, {1, 1, 1, 1, 1, std::nanf("")}}}});
+    write_exr(folder / "small.exr", {{"", Image{{1, 1}, {1, 1, 1}}}});
+    write_display(folder / "a.png", {2, 1}, {255, 255, 255, 255, 255, 255});
+    write_text(folder / "text.exr", "no image");
+    const Outcome alike = farfield_command("compare " + file("a.exr") + " " + file("a.png"));
+    EXPECT_EQ(alike.status, 0) << alike.output;
+    EXPECT_NE(alike.output.find("RMSE / mean      0\n"), std::string::npos) << alike.output;
+    EXPECT_NE(alike.output.find("FLIP             0.000000\n"), std::string::npos) << alike.output;
+    const Outcome layer = farfield_command("compare " + file("a.exr") + " " + file("b.exr") + " --layer direct");
+    EXPECT_EQ(layer.status, 0) << layer.output;
+    for (const char* text :
+         {"RMSE / mean      0.707107\n", "mean bias        +50.0000 %\n", "relMSE           0.49505\n"})
+        EXPECT_NE(layer.output.find(text), std::string::npos) << text << layer.output;
+    for (const char* arguments : {"a.exr nan.exr", "a.exr small.exr", "a.exr text.exr", "a.exr missing.exr"}) {
+        const std::string_view both = arguments, second = both.substr(6);
+        const Outcome wrong = farfield_command("compare " + file("a.exr") + " " + file(std::string(second).c_str()));
+        EXPECT_EQ(wrong.status, 2) << arguments << wrong.output;
+        EXPECT_NE(wrong.output.find(second), std::string::npos) << wrong.output;
+    }
+    EXPECT_EQ(farfield_command("compare " + file("a.exr") + " " + file("b.exr") + " --layer no").status, 2);
+    EXPECT_EQ(farfield_command("compare " + file("a.exr") + " " + file("b.exr") + " --exposure nan").status, 2);
+    EXPECT_EQ(farfield_command("compare " + file("a.exr")).status, 2);
 }
 
 TEST(CommandLine, WrongUseAndWrongInputExitWithTwo) {

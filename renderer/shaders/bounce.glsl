@@ -16,7 +16,7 @@ void main() {
         if (hit.distance >= 0.0) {
             Material m = material_of(hit.material);
             vertex = Surface(ray.origin + hit.distance * ray.direction, hit.material, unpack_normal(hit.normal),
-                             ray.footprint * hit.distance);
+                             ray.footprint * exp2(minimum_step) * hit.distance);
             if (first_bounce == 1) path.first_hit = hit.distance;
             path.radiance += path.throughput * m.emission;
             path.throughput *= m.albedo;

@@ -15,7 +15,7 @@ layout(std140, binding = 0) uniform Frame {
     vec3 sky_horizon;
     int light_count;
     vec3 sky_zenith;
-    float unused;
+    float minimum_step;     // hits may be 2^this times as far off as usual
     ivec2 image_size;       // pixels
 };
 

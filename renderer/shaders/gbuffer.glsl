@@ -17,7 +17,7 @@ void main() {
     if (found) {
         Material m = material_of(hit.material);
         surface = Surface(ray.origin + hit.distance * ray.direction, hit.material, unpack_normal(hit.normal),
-                          ray.footprint * hit.distance);
+                          ray.footprint * exp2(minimum_step) * hit.distance);
         emitted = m.emission;
         albedo = m.albedo;
         geometry_sum[pixel] += vec4(surface.normal, 1.0);

@@ -29,6 +29,7 @@ void main() {
     if (i >= ray_count) return;
     Ray ray = rays[i];
 
+    float footprint = ray.footprint * exp2(minimum_step);
     float spacing = 2.5e-7 * max(abs(ray.origin.x), max(abs(ray.origin.y), abs(ray.origin.z)));
     // Where the ray is within the scene's bounds.
     vec3 inverse_direction = 1.0 / mix(ray.direction, vec3(1e-20), lessThan(abs(ray.direction), vec3(1e-20)));
@@ -54,7 +55,7 @@ void main() {
             slope = stride > 0.0 ? mix(clamp((d - radius) / stride, -1.0, 0.9), slope, beta) : -1.0;
             t = next;
             radius = d;
-            epsilon = max(smallest_epsilon, max(ray.footprint * t, spacing + 2.5e-7 * t));
+            epsilon = max(smallest_epsilon, max(footprint * t, spacing + 2.5e-7 * t));
             found = d < epsilon * clamp(-slope, least_slope, 1.0);
         } else {
             slope = -1.0;
