@@ -155,7 +155,7 @@ std::vector<ChartPanel> chart_panels(const std::vector<ChartScene>& scenes) {
 
 std::string chart_script(const std::vector<ChartScene>& scenes, const std::string& title) {
     const std::vector<ChartPanel> all = chart_panels(scenes);
-    const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(all.size()))));
+    const int columns = all.size() == 1 ? 1 : all.size() <= 8 ? 2 : 3;  // to be read at the width of a page
     const int rows = (static_cast<int>(all.size()) + columns - 1) / columns;
     const bool device_time = std::ranges::any_of(
         scenes, [](const ChartScene& s) { return !s.measurements.empty() && s.measurements[0].device_time; });

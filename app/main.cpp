@@ -297,10 +297,16 @@ int run(int argc, char** argv) {
     chart_command->footer(
         "Every method at every number of samples with the scene's own settings, and around them one setting varied at "
         "a\n"
-        "time; see renderer/sweep.h. Lines that chart.csv has already are not measured again: an interrupted run goes "
-        "on,\n"
-        "a changed scene is measured anew. Columns (time in seconds, of the process on all its CPU cores, or of the "
-        "GPU):\n" +
+        "time: blur levels 0, 1, 2, 4, 5; AO radius x 1/4, 1/2, 2, 4; bounces 1, 2, 4, against a reference with the "
+        "most of\n"
+        "them; half and quarter width and height, magnified; 4, 16 and 64 times the tracer's minimum step.\n"
+        "Lines that chart.csv has already are not measured again: an interrupted run goes on where it was, a changed "
+        "scene\n"
+        "is measured anew. Time is CPU time of the process on all cores, or the GPU's own; error is that of the light "
+        "that\n"
+        "indirect light adds, FLIP that of the whole picture. The table has them as measured, the noise of the "
+        "reference\n"
+        "beside them; chart and tables subtract it. Columns:\n" +
         chart_columns());
 
     try {

@@ -75,6 +75,7 @@ std::string measurement_key(const Scene& scene, glm::ivec2 size) {
 
 Sweep::Sweep(Scene scene, SweepPlan plan) : scene_(std::move(scene)), plan_(std::move(plan)) {
     const Settings& own = scene_.settings;
+    std::ranges::sort(plan_.samples);
     frame_samples_ = own.samples;
     for (const int samples : plan_.samples) frame_samples_ = std::gcd(frame_samples_, samples);
 
