@@ -5,6 +5,7 @@
 #include "app/document.h"
 #include "app/file_actions.h"
 #include "app/layout.h"
+#include "app/measuring.h"
 #include "app/window.h"
 #include "sdf/scene_file.h"
 #include "ui/tree_panel.h"
@@ -67,7 +68,8 @@ public:
             const bool first = picture_.texture == 0;
             const bool news = look_for_picture();
             if (first && picture_.texture != 0) redraws = settling_frames;
-            if (news || ui_.audit.finished() || redraws > 0 || attentive) frame();
+            const bool measured = measuring_.refresh(document_.scene(), document_.revision());
+            if (news || measured || ui_.audit.finished() || redraws > 0 || attentive) frame();
             if (redraws > 0) --redraws;
             write_report();
         }
@@ -107,7 +109,7 @@ private:
         const glm::vec2 size(window_.size());
         ui_.trust = &trust_;
         const LayoutResult result = layout_.draw(ui_, {size.x, size.y}, document_, picture_, files_.error(),
-                                                 [&](CommandId id) { return enabled(id); });
+                                                 measuring_.results(), [&](CommandId id) { return enabled(id); });
         ui_.hand_in = false;
         carry_out(result.edits, gesture_);
         carry_out_camera(result.viewport);
@@ -115,6 +117,9 @@ private:
         if (std::exchange(save_, false)) files_.save();
         if (result.dismissed) files_.dismiss();
         if (result.command) perform(*result.command);
+        if (result.measure == MeasureWish::start)
+            measuring_.start(window_.make_shared_context(), document_.snapshot(), size_);
+        if (result.measure == MeasureWish::stop) measuring_.stop();
         files_.draw(ui_);
         if (document_.generation() != shown_document_) show_new_document();
         shortcut_list(ui_);
@@ -144,8 +149,10 @@ private:
         const bool splitting = held_ && !gesture_edited_;
         if (size_.x == 0 || !splitting) size_ = glm::max(glm::ivec2(picture_size * window_.pixels_per_unit()), 1);
         const Id tuned = ui_.selection.type == ObjectType::node ? ui_.selection.id : 0;
-        const auto wanted =
-            std::tuple(document_.revision(), trust_.revision(), size_.x, size_.y, ui_.view, tuned, interacting_);
+        // What is measured is the processor's time: the picture rests as soon as it shows what there is.
+        const int frames = measuring_.results().running ? 1 : frames_until_rest;
+        const auto wanted = std::tuple(document_.revision(), trust_.revision(), size_.x, size_.y, ui_.view, tuned,
+                                       interacting_, frames);
         if (wanted == submitted_) return;
         submitted_ = wanted;
         render_.submit({.scene = document_.snapshot(),
@@ -153,7 +160,7 @@ private:
                         .view = ui_.view,
                         .tuned = tuned,
                         .interacting = interacting_,
-                        .max_frames = frames_until_rest});
+                        .max_frames = frames});
     }
 
     void carry_out(const Edits& edits, unsigned gesture) {
@@ -291,6 +298,9 @@ private:
             case CommandId::code:
                 ui_.show_code = !ui_.show_code;
                 break;
+            case CommandId::measure:
+                ui_.show_measure = !ui_.show_measure;
+                break;
             case CommandId::shortcuts:
                 ui_.show_shortcuts = !ui_.show_shortcuts;
                 break;
@@ -371,6 +381,7 @@ private:
     FileActions files_{document_};
     Ui ui_;
     Layout layout_;
+    Measuring measuring_;
     RenderedPicture picture_;
     std::uint64_t pictures_ = 0;
 
@@ -383,7 +394,7 @@ private:
     bool gesture_moves_ = false;   ///< and more of it than settings
     bool interacting_ = false;
     glm::ivec2 size_{0};
-    std::tuple<std::uint64_t, std::size_t, int, int, View, Id, bool> submitted_{};
+    std::tuple<std::uint64_t, std::size_t, int, int, View, Id, bool, int> submitted_{};
     std::uint64_t shown_document_ = 0;  ///< its generation
 };
 

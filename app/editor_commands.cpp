@@ -43,6 +43,7 @@ constexpr Command commands[] = {
     {CommandId::reset_camera, "View", "reset_camera", "Reset camera", GLFW_KEY_HOME, shift, "Shift+Home"},
     {CommandId::statistics, "View", "statistics", "Statistics", GLFW_KEY_F3, plain, "F3", true},
     {CommandId::code, "View", "code", "Code", GLFW_KEY_F4, plain, "F4"},
+    {CommandId::measure, "View", "measure", "Speed and accuracy", GLFW_KEY_F6, plain, "F6"},
     {CommandId::shortcuts, "Help", "shortcuts", "Keys and mouse", GLFW_KEY_F1, plain, "F1"},
 };
 
@@ -64,6 +65,7 @@ constexpr std::pair<const char*, const char*> mouse[] = {
 
 bool is_on(const Ui& ui, CommandId id) {
     return (id == CommandId::statistics && ui.show_statistics) || (id == CommandId::code && ui.show_code) ||
+           (id == CommandId::measure && ui.show_measure) ||
            (id == CommandId::shortcuts && ui.show_shortcuts);
 }
 

@@ -29,6 +29,7 @@ enum class CommandId {
     frame_all,
     reset_camera,
     code,
+    measure,
     statistics,
     shortcuts,
 };

@@ -160,7 +160,8 @@ void Layout::draw_middle(Ui& ui, ImVec2 low, ImVec2 size, const Document& docume
 }
 
 LayoutResult Layout::draw(Ui& ui, ImVec2 size, const Document& document, const RenderedPicture& picture,
-                          const std::string& message, const std::function<bool(CommandId)>& enabled) {
+                          const std::string& message, const MeasureResults& measured,
+                          const std::function<bool(CommandId)>& enabled) {
     LayoutResult result;
     ImGui::SetNextWindowPos({0.0f, 0.0f});
     ImGui::SetNextWindowSize(size);
@@ -180,6 +181,7 @@ LayoutResult Layout::draw(Ui& ui, ImVec2 size, const Document& document, const R
     draw_panels(ui, low, {size.x, std::max(size.y - low.y - status, 1.0f)}, document, picture, message, result);
     status_line(ui, {0.0f, size.y - status}, {size.x, status}, document, picture);
     ImGui::End();
+    append(result.edits, measure_panel(ui, document.scene(), measured, result.measure));
     return result;
 }
 

@@ -5,6 +5,7 @@
 #include "app/document.h"
 #include "app/viewport.h"
 #include "ui/code_panel.h"
+#include "ui/measure_panel.h"
 
 #include <optional>
 #include <string>
@@ -16,6 +17,7 @@ struct LayoutResult {
     ViewportResult viewport;
     std::optional<CommandId> command;
     bool dismissed = false;  ///< the message
+    MeasureWish measure = MeasureWish::none;
 };
 
 class Layout {
@@ -24,7 +26,8 @@ public:
 
     /// Draws the whole window of `size`. `message`: something that went wrong, empty for nothing.
     LayoutResult draw(Ui& ui, ImVec2 size, const Document& document, const RenderedPicture& picture,
-                      const std::string& message, const std::function<bool(CommandId)>& enabled);
+                      const std::string& message, const MeasureResults& measured,
+                      const std::function<bool(CommandId)>& enabled);
 
     const CodePanel& code() const { return code_; }
     /// Another document is shown: what was typed and not handed in belongs to the old one.

@@ -15,6 +15,7 @@
 // beside each measurement.
 #pragma once
 
+#include "renderer/measurement.h"
 #include "renderer/reference.h"
 
 #include <functional>
@@ -22,10 +23,6 @@
 #include <vector>
 
 namespace farfield {
-
-/// What a measurement's settings differ in from the scene's own; method and samples aside.
-enum class Varied { none, blur_levels, ao_radius, bounces, scale, minimum_step };
-inline constexpr const char* varied_keys[] = {"none", "blur_levels", "ao_radius", "bounces", "scale", "minimum_step"};
 
 struct SweepPlan {
     glm::ivec2 size{256, 256};                 ///< pixels
@@ -39,34 +36,6 @@ struct SweepPlan {
                              4};  ///< against a reference with as many as the largest of these and the scene's own
     std::vector<float> minimum_steps{4.0f, 16.0f, 64.0f};  ///< times the usual; see FrameOptions
     std::vector<float> scales{0.5f, 0.25f};                ///< of width and height, magnified for comparison
-};
-
-struct Setting {
-    Method method = Method::farfield;
-    int samples = 0;  ///< per pixel of what was rendered
-    int blur_levels = 0;
-    float ao_radius = 0.0f;  ///< metres
-    int bounces = 0;
-    float scale = 1.0f;
-    float minimum_step = 1.0f;
-    friend bool operator==(const Setting&, const Setting&) = default;
-};
-
-struct Measurement {
-    Varied varied = Varied::none;
-    Setting setting;
-    int frame_samples = 0;  ///< per pixel and frame
-    std::uint32_t seed = 0;
-    int reference_bounces = 0;
-    int reference_samples = 0;
-    double seconds = 0.0;
-    bool device_time = false;  ///< by timer queries, not CPU time
-    double rmse_over_mean = 0.0;
-    double relative_mse = 0.0;
-    double bias = 0.0;  ///< relative to the reference's mean, signed
-    double flip = 0.0;
-    double noise_rmse_over_mean = 0.0;  ///< of the reference
-    double noise_relative_mse = 0.0;
 };
 
 /// One accumulation and what is read off it at each number of samples.

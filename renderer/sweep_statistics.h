@@ -1,7 +1,7 @@
 // From measurements of many seeds to points and curves of a chart.
 #pragma once
 
-#include "renderer/sweep.h"
+#include "renderer/measurement.h"
 
 #include <optional>
 #include <vector>
@@ -13,18 +13,6 @@ double median(std::vector<double> values);  ///< 0 for none
 /// RMSE / mean less what the reference's own noise adds: both are independent, so squares subtract. 0 where the error
 /// cannot be told from that noise.
 double true_error(const Measurement& measurement);
-
-/// The same settings over all seeds.
-struct ChartPoint {
-    Varied varied = Varied::none;
-    Setting setting;
-    int seeds = 0;
-    double seconds = 0.0;          ///< median over the seeds, as all below
-    double error = 0.0;            ///< RMSE / mean, see true_error
-    double low = 0.0, high = 0.0;  ///< smallest and largest error of a seed
-    double relative_mse = 0.0, bias = 0.0, flip = 0.0;
-    double noise = 0.0;  ///< of the reference, RMSE / mean
-};
 
 /// In order of first occurrence.
 std::vector<ChartPoint> chart_points(const std::vector<Measurement>& measurements);

@@ -303,6 +303,23 @@ def audit(editor):
     editor.wait("no mark", lambda r: r["saved"] and "tree_warning/Mirror" not in r["controls"])
 
 
+def measure(editor):
+    """The chart of the view grows while it is measured; a click on a point is an edit of the settings."""
+    editor.key("F6")
+    editor.click("measure/run")
+    editor.wait("the first points", lambda r: "measure/point/2" in r["controls"])
+    editor.click("measure/run")
+    report = editor.wait("it has stopped", lambda r: "measure/Draft" in r["controls"])
+    first = report["revision"]
+    editor.click("measure/point/0")
+    editor.wait("other settings", lambda r: r["revision"] > first)
+    editor.key("ctrl+z")
+    editor.wait("the old settings", lambda r: r["revision"] == first)
+    editor.key("F6")
+    editor.wait("no chart", lambda r: "measure/run" not in r["controls"])
+    editor.settled()
+
+
 def type_without_traces(editor):
     """Opening a number's text changes nothing, Escape leaves no step, and what is typed is one step."""
     editor.click("tree/short block")
@@ -517,7 +534,7 @@ def custom_code(editor, foreign, trusted):
 def main():
     program, bundled = sys.argv[1], Path(sys.argv[2])
     with tempfile.TemporaryDirectory(prefix="farfield-test-") as folder, Display() as display:
-        display.environment["XDG_CONFIG_HOME"] = folder
+        display.environment["XDG_CONFIG_HOME"] = display.environment["XDG_CACHE_HOME"] = folder
         scene = Path(folder) / "scene.json"
         shutil.copyfile(bundled, scene)
         original = json.loads(scene.read_text())
@@ -529,6 +546,7 @@ def main():
                 lambda: frame(editor),
                 lambda: search_kinds(editor),
                 lambda: audit(editor),
+                lambda: measure(editor),
                 lambda: type_without_traces(editor),
                 lambda: add_sphere_under_union(editor),
                 lambda: type_values(editor),
@@ -542,7 +560,7 @@ def main():
                 lambda: show_error(editor, Path(folder) / "bad.json"),
                 lambda: custom_code(editor, Path(folder) / "foreign.json", Path(folder) / "farfield" / "trusted"),
             ]
-            names = ["start", "read the code", "click shapes", "frame", "search kinds", "audit", "type without traces", "add a sphere under a union", "type values", "drag a radius", "sample count",
+            names = ["start", "read the code", "click shapes", "frame", "search kinds", "audit", "measure", "type without traces", "add a sphere under a union", "type values", "drag a radius", "sample count",
                      "blur levels", "AO radius", "save", "reload", "define and free", "an error in a file", "custom code"]
             for name, step in zip(names, steps):
                 print(f"{name} ...", flush=True)

@@ -46,6 +46,7 @@ struct Ui {
     bool show_statistics = true;
     bool show_shortcuts = false;
     bool show_code = false;
+    bool show_measure = false;
     Id reveal = 0;            ///< node, material or light that its list scrolls to, once
     bool open_add = false;    ///< the tree opens its list of kinds to add, once
     bool focus_name = false;  ///< the inspector puts the keyboard into the name field, once
