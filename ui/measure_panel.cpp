@@ -18,12 +18,13 @@ struct MethodInfo {
     ImU32 color;
 };
 
-MethodInfo method_info(const Ui& ui, Method method) {
+/// The colours of `farfield chart`, for a dark ground.
+MethodInfo method_info(Method method) {
     switch (method) {
         case Method::paper:
-            return {"paper", ui.theme.axis[2]};
+            return {"paper", IM_COL32(226, 110, 50, 255)};
         case Method::farfield:
-            return {"farfield", ui.theme.accent};
+            return {"farfield", IM_COL32(82, 156, 232, 255)};
         default:
             return {"reference (no filter)", IM_COL32(170, 176, 186, 255)};
     }
@@ -89,9 +90,9 @@ Edits settings_of(const Scene& scene, const ChartPoint& point) {
     return edits;
 }
 
-std::string description(const Ui& ui, const ChartPoint& p) {
+std::string description(const ChartPoint& p) {
     const Setting& s = p.setting;
-    std::string text = fmt::format("{}, {} samples", method_info(ui, s.method).label, s.samples);
+    std::string text = fmt::format("{}, {} samples", method_info(s.method).label, s.samples);
     if (s.method != Method::reference)
         text += fmt::format(", {} blur {}, AO radius {:.3g} m", s.blur_levels, s.blur_levels == 1 ? "level" : "levels",
                             s.ao_radius);
@@ -188,7 +189,7 @@ const ChartPoint* plot(Ui& ui, const Scene& scene, const MeasureResults& results
             if (p.setting.method != method || p.varied != Varied::none || !can_be_drawn(p)) continue;
             if (last)
                 draw.AddLine({x.at(last->seconds), y.at(last->error)}, {x.at(p.seconds), y.at(p.error)},
-                             method_info(ui, method).color, theme.px(1.5f));
+                             method_info(method).color, theme.px(1.5f));
             last = &p;
         }
     }
@@ -197,7 +198,7 @@ const ChartPoint* plot(Ui& ui, const Scene& scene, const MeasureResults& results
         if (!can_be_drawn(p)) continue;
         const ImVec2 at{x.at(p.seconds), y.at(p.error)};
         const float radius = theme.px(p.varied == Varied::none ? 4.0f : 2.5f) + (&p == under ? theme.px(2.0f) : 0.0f);
-        draw.AddCircleFilled(at, radius, method_info(ui, p.setting.method).color);
+        draw.AddCircleFilled(at, radius, method_info(p.setting.method).color);
         if (is_current(scene, p)) draw.AddCircle(at, radius + theme.px(3.0f), theme.text, 0, theme.px(1.5f));
         if (p.varied == Varied::none)
             ui.report.rectangle("measure", fmt::format("point/{}", index++), {at.x - radius, at.y - radius},
@@ -205,7 +206,7 @@ const ChartPoint* plot(Ui& ui, const Scene& scene, const MeasureResults& results
     }
     float left = high.x;
     for (const Method method : {Method::reference, Method::farfield, Method::paper}) {
-        const MethodInfo info = method_info(ui, method);
+        const MethodInfo info = method_info(method);
         left -= ImGui::CalcTextSize(info.label).x + theme.px(8.0f);
         draw.AddText({left, corner.y}, theme.text, info.label);
         left -= theme.px(8.0f);
@@ -213,7 +214,7 @@ const ChartPoint* plot(Ui& ui, const Scene& scene, const MeasureResults& results
         left -= theme.px(8.0f);
     }
     ImGui::PopFont();
-    if (under) ImGui::SetTooltip("%s\nClick to use these settings", description(ui, *under).c_str());
+    if (under) ImGui::SetTooltip("%s\nClick to use these settings", description(*under).c_str());
     return clicked ? under : nullptr;
 }
 
@@ -280,7 +281,7 @@ Edits measure_panel(Ui& ui, const Scene& scene, const MeasureResults& results, M
                 if (ImGui::Button(presets[i], {width, 0.0f})) edits = settings_of(scene, *point);
                 if (current) ImGui::PopStyleColor();
                 ui.report.item("measure", presets[i]);
-                tooltip(ui, description(ui, *point));
+                tooltip(ui, description(*point));
             }
         }
     }
