@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
-#include <optional>
 
 namespace farfield {
 namespace {
