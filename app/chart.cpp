@@ -13,7 +13,6 @@
 #include <algorithm>
 #include <fstream>
 #include <map>
-#include <optional>
 
 namespace farfield {
 namespace {
@@ -43,7 +42,8 @@ public:
             if (!references.contains(run.reference_bounces) &&
                 !make_reference(renderer, store, run.reference_bounces, references[run.reference_bounces]))
                 return false;
-        Progress progress(name() + ": measuring, frame", static_cast<int>(missing.size()) * sweep_.frames());
+        const double frames = static_cast<double>(missing.size()) * sweep_.frames();
+        Progress progress(name() + ": measuring, frame", static_cast<int>(std::min(frames, 2e9)));
         const auto frame_done = [&] {
             progress.advance();
             return !Progress::interrupted();

@@ -3,12 +3,11 @@
 // Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and Fairchild, "FLIP: A Difference Evaluator for Alternating
 // Images", Proceedings of the ACM on Computer Graphics and Interactive Techniques 3(2), 2020. Two pipelines:
 //
-//   colour    opponent space YCxCz -> contrast sensitivity of the eye as a low-pass filter (their equations 1-4) ->
-//             clamped to the display's gamut -> CIELAB with Hunt's effect (5) -> HyAB distance (6) -> compressed to
-//             0..1 (7, 8)
-//   feature   edges and points of the achromatic channel by first and second derivatives of a Gaussian (9-12)
+//   colour    opponent space YCxCz -> contrast sensitivity of the eye as a low-pass filter -> clamped to the display's
+//             gamut -> CIELAB with Hunt's effect -> HyAB distance -> compressed to 0..1
+//   feature   edges and points of the achromatic channel by first and second derivatives of a Gaussian
 //
-//   FLIP = colour^(1 - feature)    (13)
+//   FLIP = colour^(1 - feature)
 //
 // Filters are separable: each is a product of two one-dimensional filters or the sum of two such. Pixels beyond the
 // border repeat those at it.

@@ -20,7 +20,7 @@ Metrics measure(const Image& image, const Image& reference);
 
 /// Mean of (x - r)² / (r² + ε m²), with m the mean of the reference: relMSE of Rousselle, Knaus and Zwicker ("Adaptive
 /// Sampling and Reconstruction using Greedy Error Minimization", 2011) with their ε = 0.01, which they add to pixels of
-/// about 1. Times m² it does the same for every exposure. One deviation more: they take the mean of the channels first.
+/// about 1. Times m² it does the same for every exposure. Every channel counts by itself.
 double relative_mse(const Image& image, const Image& reference);
 inline constexpr double relative_mse_epsilon = 0.01;
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr int version = 1;                         // of what else decides: raise it when passes.cpp follows paths anew
 constexpr int frame_samples = 8;                   // for each camera ray of a pixel, which antialiases
-constexpr int portion_samples = 1024;              // what an interrupted run loses at most
+constexpr int portion_samples = 512;               // what an interrupted run loses at most
 constexpr std::uint32_t first_seed = 0x5eed0000u;  // far from those that people give
 
 int half_of(int samples) { return (samples + 1) / 2; }

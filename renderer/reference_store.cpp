@@ -10,14 +10,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int most = 1'000'000'000;  // samples; that two of them can be added
 constexpr const char* half_names[] = {"a", "b"};
 
 int whole_attribute(const fs::path& file, const std::string& name) {
     const std::string text = read_attribute(file, name);
     int value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size() || value < 1)
-        throw ImageError(fmt::format("{}: {} is \"{}\", expected a number of at least 1", file.string(), name, text));
+    if (error != std::errc() || end != text.data() + text.size() || value < 1 || value > most)
+        throw ImageError(
+            fmt::format("{}: {} is \"{}\", expected a number between 1 and {}", file.string(), name, text, most));
     return value;
 }
 

@@ -143,7 +143,7 @@ TEST_F(Charts, StoredReferencesComeBackAndBrokenOnesDoNot) {
                                     {"a.result", loaded.halves[0].result},
                                     {"b.indirect", loaded.halves[1].indirect},
                                     {"b.result", loaded.halves[1].result}};
-    for (const char* samples : {"0", "-4", "nan", "99999999999", ""}) {
+    for (const char* samples : {"0", "-4", "nan", "99999999999", "2000000000", ""}) {
         write_exr(store.file(key), layers,
                   {{"farfield:key", key},
                    {"farfield:portions", "2"},
