@@ -149,9 +149,12 @@ vec2 unit_square(uvec2 v) {
     return vec2(v >> 8u) * (1.0 / 16777216.0);
 }
 
-// Sample `index` of a pixel: Roberts' R2 sequence (2018) in integers, moved by a hash of pixel, stream and seed.
-vec2 sequence_sample(uint pixel, uint index, uint stream) {
-    return unit_square(hash(uvec3(pixel, stream, seed)).xy + index * uvec2(3242174889u, 2447445414u));
+// Sample `index` of a pixel: Roberts' R2 sequence (2018), moved from pixel to pixel by the numbers of his R4, which share no
+// ratio with those, and as a whole by a hash of stream and seed. So the pixels that a filter averages share out the
+// hemisphere among them. Any one pixel is uniform over the seeds.
+vec2 sequence_sample(uvec2 pixel, uint index, uint stream) {
+    return unit_square(hash(uvec3(stream, seed, 0u)).xy + index * uvec2(3242174889u, 2447445414u) +
+                       pixel.x * uvec2(3679390609u, 3152041523u) + pixel.y * uvec2(2700274805u, 2313257605u));
 }
 
 // The same without stratification: for further bounces, where one sequence for all dimensions would be biased.

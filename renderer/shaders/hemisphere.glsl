@@ -17,7 +17,8 @@ void main() {
     Surface s = surfaces[first_surface + i];
     bool any = s.material != no_surface;
     uint pixel = first_pixel + i;
-    vec2 u = stratified == 1 ? sequence_sample(pixel, sample_index, stream) : independent_sample(pixel, sample_index, stream);
+    uvec2 at = uvec2(pixel % uint(image_size.x), pixel / uint(image_size.x));
+    vec2 u = stratified == 1 ? sequence_sample(at, sample_index, stream) : independent_sample(pixel, sample_index, stream);
     vec3 direction = cosine_direction(s.normal, u);
     rays[i] = Ray(leave(s), any ? reach : 0.0, direction, 1e-3);
     if (start_path == 1) paths[i] = Path(vec3(1.0), no_hit, vec3(0.0), 0.0);
