@@ -65,6 +65,7 @@ struct RenderThread::State {
     std::uint64_t serial = 0;
     double milliseconds_per_pixel_sample = 0.0;  ///< measured on the last frame; 0: not yet
     bool unshown = false;                        ///< another view, other settings or a finished frame
+    bool dropped = false;                        ///< the last picture was outdated before it was filtered
     int shown_samples = 0;
     bool preview = false;   ///< the first picture after an edit, quick and small
     bool prepared = false;  ///< every program that the next edit may need is there
@@ -76,6 +77,7 @@ struct RenderThread::State {
     void update(Tier tier, Id tuned);
     bool compile_in_background();
     void work();
+    bool outdated();
     void show();
     bool finished() const {
         return current.max_frames > 0 && renderer->statistics().frames >= current.max_frames && !quick();
@@ -267,9 +269,14 @@ void RenderThread::State::work() {
     }
 }
 
+/// Whether filtering the picture is in vain, because a newer request has come. Not twice in a row: something must be
+/// seen.
+bool RenderThread::State::outdated() {
+    const std::lock_guard lock(mutex);
+    return stop || (next && !quick() && !dropped);
+}
+
 void RenderThread::State::show() {
-    unshown = false;
-    shown_samples = renderer->statistics().samples;
     int free = 0;
     {
         const std::lock_guard lock(mutex);
@@ -279,7 +286,10 @@ void RenderThread::State::show() {
     if (!slot.texture || slot.texture.size() != renderer->size())
         slot.texture = gl::Texture("picture", GL_RGBA8, renderer->size());
     const Clock::time_point start = Clock::now();
-    renderer->display(slot.texture);
+    dropped = !renderer->display(slot.texture, [this] { return outdated(); });
+    unshown = dropped;
+    if (dropped) return;
+    shown_samples = renderer->statistics().samples;
     if (slot.fence) glDeleteSync(slot.fence);
     slot.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     glFlush();

@@ -218,21 +218,23 @@ void Renderer::render_frame() {
     while (!step()) {}
 }
 
-void Renderer::synthesise(View view) {
+bool Renderer::synthesise(View view, const std::function<bool()>& stop) {
     frame_.bind_uniform(binding::frame);
     targets_->bind();
     const Settings& settings = scene_.settings;
     const bool split = settings.method == Method::farfield;
-    if (split) wavelet_pass_.run(*targets_, settings.blur_levels);
+    if (split && !wavelet_pass_.run(*targets_, settings.blur_levels, stop)) return false;
     const gl::Texture& filtered =
-        split ? targets_->far_levels.back() : filter_pass_.run(*targets_, settings.blur_levels);
+        split ? targets_->levels.back().far : filter_pass_.run(*targets_, settings.blur_levels);
     synthesis_pass_.run(*targets_, filtered, targets_->estimates[0], static_cast<int>(view), settings.method,
                         completed_cameras_);
+    return true;
 }
 
-void Renderer::display(const gl::Texture& output) {
-    synthesise(options_.view);
+bool Renderer::display(const gl::Texture& output, const std::function<bool()>& stop) {
+    if (!synthesise(options_.view, stop)) return false;
     display_pass_.run(*targets_, output, static_cast<int>(options_.view), scene_.settings.exposure);
+    return true;
 }
 
 std::vector<unsigned char> Renderer::display_pixels() {

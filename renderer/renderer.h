@@ -14,6 +14,7 @@
 #include "sdf/scene.h"
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -54,8 +55,9 @@ public:
     bool displayable() const;
     void render_frame();
 
-    /// The current view in 8 bits, into a texture of the picture's size.
-    void display(const gl::Texture& output);
+    /// The current view in 8 bits, into a texture of the picture's size. `stop` is asked now and then; false when it
+    /// said so, and the texture is as it was.
+    bool display(const gl::Texture& output, const std::function<bool()>& stop = {});
     std::vector<unsigned char> display_pixels();  ///< RGB, row 0 at the top
     Image read(View view);                        ///< linear
 
@@ -66,7 +68,7 @@ private:
     void discard();
     void begin_frame();
     void finish_frame();
-    void synthesise(View view);
+    bool synthesise(View view, const std::function<bool()>& stop = {});
     Work next_work() const;
     /// For each far-light sample. One ray alone answers black or white, so the first sample takes more: a first picture
     /// without speckle for a few percent of its time.
