@@ -175,7 +175,7 @@ const gl::Texture& FilterPass::run(Targets& targets, int blur_levels) const {
 }
 
 bool WaveletPass::run(Targets& targets, int blur_levels, const std::function<bool()>& stop) const {
-    const auto levels = static_cast<std::size_t>(std::max(blur_levels, 0));
+    const std::size_t levels = blur_levels > 0 ? static_cast<std::size_t>(blur_levels) + 1 : 0;
     make_textures(targets, levels);
     targets.levels[0].far.bind_image(0, GL_WRITE_ONLY);
     targets.levels[0].near.bind_image(1, GL_WRITE_ONLY);

@@ -111,6 +111,7 @@ private:
 /// The consistent near/far estimate: à-trous wavelet and James-Stein shrinkage from coarse to fine; see METHOD.md.
 class WaveletPass {
 public:
+    /// One level of the wavelet more than `blur_levels` (0 stays 0): so wide is the paper's filter, see METHOD.md.
     /// Leaves irradiance / pi in targets.estimates[0] and the coarsest far light in targets.levels.back(). Asks `stop`,
     /// if there is one, between levels; false when it said so and nothing is there to be shown.
     bool run(Targets& targets, int blur_levels, const std::function<bool()>& stop) const;
