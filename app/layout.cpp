@@ -126,7 +126,7 @@ void Layout::draw_panels(Ui& ui, ImVec2 low, ImVec2 size, const Document& docume
     panel("inspector", {right_x, low.y}, {right, inspector_height},
           [&] { append(result.edits, inspector_panel(ui, scene)); });
     panel("settings", {right_x, low.y + inspector_height + bar}, {right, settings},
-          [&] { append(result.edits, settings_panel(ui, scene)); });
+          [&] { append(result.edits, settings_panel(ui, scene, picture.statistics)); });
 
     split(ui, "left", {low.x + left, low.y}, {bar, size.y}, left, 1.0f, left_);
     split(ui, "right", {right_x - bar, low.y}, {bar, size.y}, right, -1.0f, right_);

@@ -35,6 +35,7 @@ struct HemisphereRays {
     bool stratified;
     bool start_path;
     float reach;
+    std::size_t spread = 0;
 
     void run(const gl::Program& program, const Work& work) const {
         program.set("ray_count", static_cast<unsigned>(work.count));
@@ -45,11 +46,12 @@ struct HemisphereRays {
         program.set("stratified", stratified ? 1 : 0);
         program.set("start_path", start_path ? 1 : 0);
         program.set("reach", reach);
+        program.set("spread", static_cast<unsigned>(spread));
         program.run(work.count);
     }
 };
 
-constexpr unsigned occlusion_stream = 100;  // apart from the bounces' streams 0..8
+constexpr unsigned occlusion_stream = 100, measure_stream = 200;  // apart from the bounces' streams 0..8
 
 }  // namespace
 
@@ -126,23 +128,51 @@ void FarLightPass::run(const Work& work, unsigned sample_index, int bounces, flo
         HemisphereRays{
             first ? work.first_pixel : 0, sample_index, static_cast<unsigned>(bounce), first, first, far_reach}
             .run(hemisphere_, work);
-        work.tracer.trace(work.count, true, work.counting);
-        work.batch.vertices.bind_storage(binding::surfaces);
-        bounce_.set("ray_count", static_cast<unsigned>(work.count));
-        bounce_.set("first_bounce", first ? 1 : 0);
-        bounce_.run(work.count);
-        for (int light = 0; light < work.light_count; ++light) {
-            trace_shadow_rays(light_rays_, work, 0, light);
-            light_.set("ray_count", static_cast<unsigned>(work.count));
-            light_.set("light_index", static_cast<unsigned>(light));
-            light_.run(work.count);
-        }
+        follow(work, first);
     }
     work.targets.surfaces.bind_storage(binding::surfaces);
     gather_.set("ray_count", static_cast<unsigned>(work.count));
     gather_.set("first_pixel", static_cast<unsigned>(work.first_pixel));
     gather_.set("near_radius", near_radius);
     gather_.run(work.count);
+}
+
+void FarLightPass::follow(const Work& work, bool first) const {
+    work.tracer.trace(work.count, true, work.counting);
+    work.batch.vertices.bind_storage(binding::surfaces);
+    bounce_.set("ray_count", static_cast<unsigned>(work.count));
+    bounce_.set("first_bounce", first ? 1 : 0);
+    bounce_.run(work.count);
+    for (int light = 0; light < work.light_count; ++light) {
+        trace_shadow_rays(light_rays_, work, 0, light);
+        light_.set("ray_count", static_cast<unsigned>(work.count));
+        light_.set("light_index", static_cast<unsigned>(light));
+        light_.run(work.count);
+    }
+}
+
+std::vector<double> FarLightPass::measure(const Work& work, int bounces) const {
+    std::vector<double> light;
+    std::vector<PathRecord> paths(work.count);
+    for (int bounce = 0; bounce < bounces; ++bounce) {
+        const bool first = bounce == 0;
+        HemisphereRays{0,
+                       0,
+                       measure_stream + static_cast<unsigned>(bounce),
+                       false,
+                       first,
+                       far_reach,
+                       first ? work.targets.pixels() : 0}
+            .run(hemisphere_, work);
+        follow(work, first);
+        glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+        work.batch.paths.read(paths.data(), paths.size() * sizeof(PathRecord));
+        double sum = 0.0;
+        for (const PathRecord& path : paths) sum += path.radiance.x + path.radiance.y + path.radiance.z;
+        light.push_back(sum / (3.0 * static_cast<double>(paths.size())));
+    }
+    work.targets.surfaces.bind_storage(binding::surfaces);
+    return light;
 }
 
 void OcclusionPass::run(const Work& work, unsigned sample_index, float radius) const {

@@ -81,8 +81,13 @@ private:
 class FarLightPass {
 public:
     void run(const Work& work, unsigned sample_index, int bounces, float near_radius) const;
+    /// Mean irradiance / pi after each bounce, on work.count paths that start all over the picture; accumulates
+    /// nothing.
+    std::vector<double> measure(const Work& work, int bounces) const;
 
 private:
+    /// Traces the rays of the batch, adds what the paths meet, and lights it.
+    void follow(const Work& work, bool first) const;
     gl::Program hemisphere_ = load_program("hemisphere.glsl"), bounce_ = load_program("bounce.glsl"),
                 light_rays_ = load_program("light_rays.glsl"), light_ = load_program("bounce_light.glsl"),
                 gather_ = load_program("gather.glsl");

@@ -197,6 +197,7 @@ void RenderThread::State::update(Tier tier, Id tuned) {
     options.size = quick() ? quick_size() : current.size;
     options.view = current.view;
     options.samples = quick() ? 1 : 0;
+    options.measure_bounces = !quick();
     if (milliseconds_per_pixel_sample > 0.0)
         options.batch = static_cast<std::size_t>(step_milliseconds / milliseconds_per_pixel_sample) / 64 * 64;
     else

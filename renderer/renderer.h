@@ -27,6 +27,7 @@ struct FrameOptions {
     Tier tier = Tier::specialised;  ///< live: no parameter edit needs a new program
     Id tuned = 0;                   ///< node with live parameters in the specialised tier
     int samples = 0;                ///< hemisphere rays per pixel and frame; 0: the scene's setting
+    bool measure_bounces = false;   ///< what each adds; automatic bounces otherwise go on with what was measured last
     bool counting = false;          ///< count rays and evaluations; costs a little
     std::size_t batch =
         Batch::capacity;  ///< pixels for each step, at most Batch::capacity; changes no bit of the picture
@@ -70,6 +71,8 @@ private:
     void finish_frame();
     bool synthesise(View view, const std::function<bool()>& stop = {});
     Work next_work() const;
+    int bounces() const { return scene_.settings.bounces > 0 ? scene_.settings.bounces : automatic_bounces_; }
+    void measure_bounces();
     /// For each far-light sample. One ray alone answers black or white, so the first sample takes more: a first picture
     /// without speckle for a few percent of its time.
     unsigned occlusion_rays() const { return occlusion_samples_ == 0 ? 4 : 1; }
@@ -101,6 +104,8 @@ private:
     int completed_cameras_ = 0;  ///< frames whose camera pass is in the accumulators
     unsigned far_samples_ = 0;   ///< of every pixel since the last discard
     unsigned occlusion_samples_ = 0;
+    int automatic_bounces_ = 0;  ///< enough by the last measurement; 0: none yet
+    bool bounces_measured_ = false;
     std::chrono::steady_clock::time_point frame_start_;
     Statistics statistics_;
 };

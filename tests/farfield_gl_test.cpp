@@ -89,6 +89,42 @@ TEST_F(Farfield, FurnaceIsExactForEveryAoRadius) {
     }
 }
 
+/// In a furnace that emits 1 and reflects half bounce k adds 2^(1-k) to 2 - 2^(2-k).
+TEST_F(Farfield, AutomaticBouncesStopWhereTheNextAddsLittle) {
+    Scene scene;
+    const Id shell = apply(scene, InsertNode{scene.root.id, -1, make_node(NodeKind::shell)});
+    apply(scene, InsertNode{shell, -1, make_node(NodeKind::sphere)});
+    scene.materials[0].albedo = glm::vec3(0.5f);
+    scene.materials[0].emission = glm::vec3(1.0f);
+    scene.camera.position = {0.1f, 0.0f, 0.2f};
+    scene.camera.target = glm::vec3(0.0f);
+    scene.settings.bounces = 0;
+    accumulate(scene, 1);
+    const std::vector<float> shares = renderer_->statistics().bounce_shares;
+    ASSERT_EQ(shares.size(), 9u);
+    for (int k = 2; k <= 9; ++k)
+        EXPECT_NEAR(shares[static_cast<std::size_t>(k - 1)] * (2.0 - std::pow(2.0, 2 - k)), std::pow(2.0, 1 - k),
+                    0.1 * std::pow(2.0, 1 - k))
+            << k;
+    EXPECT_EQ(renderer_->statistics().bounces, 7);
+    EXPECT_EQ(bounces_text(renderer_->statistics()), "7 bounces; bounce 8 adds 0.4 %");
+    const Image automatic = read(scene, Method::reference, 0);
+    scene.settings.bounces = 7;
+    accumulate(scene, 1);
+    EXPECT_EQ(read(scene, Method::reference, 0).pixels, automatic.pixels);
+
+    // While a hand moves things the last measurement goes on; a dark scene needs one bounce.
+    scene.settings.bounces = 0;
+    scene.materials[0].albedo = glm::vec3(0.0f);
+    accumulate(scene, 1);
+    EXPECT_EQ(renderer_->statistics().bounces, 7);
+    options_.measure_bounces = true;
+    EXPECT_FALSE(renderer_->update(scene, options_));
+    while (renderer_->statistics().bounces != 1) renderer_->step();
+    EXPECT_EQ(renderer_->statistics().samples, 0);  // of seven bounces
+    options_.measure_bounces = false;
+}
+
 TEST_F(Farfield, WithoutBlurIsTheReferenceAndPaperIsUntouched) {
     const Scene scene = bundled("still_life");
     accumulate(scene, 2);
