@@ -103,7 +103,7 @@ Layout::Layout(const Theme& theme)
     : left_(theme.px(250.0f)),
       right_(theme.px(336.0f)),
       objects_(theme.px(238.0f)),
-      settings_(theme.px(246.0f)),
+      settings_(theme.px(274.0f)),
       code_width_(theme.px(660.0f)),
       code_height_(theme.px(330.0f)) {}
 

@@ -53,6 +53,10 @@ struct HemisphereRays {
 
 constexpr unsigned occlusion_stream = 100, measure_stream = 200;  // apart from the bounces' streams 0..8
 
+/// Of the wavelet: its openness is the one in front of the mean far light. Narrower ones bring noise, wider ones blur
+/// contact.
+constexpr std::size_t narrow_level = 2;
+
 }  // namespace
 
 Targets::Targets(glm::ivec2 s)
@@ -273,10 +277,11 @@ void WaveletPass::shrink(const Targets& targets, std::size_t level) const {
     finer.gain.bind(5);
     coarsest.far.bind(6);
     coarsest.near.bind(7);
-    targets.levels[std::min<std::size_t>(1, targets.levels.size() - 1)].far.bind(8);
+    targets.levels[std::min(narrow_level, targets.levels.size() - 1)].far.bind(8);
     targets.estimates[level % 2].bind_image(0, GL_WRITE_ONLY);
     targets.details[(level + 1) % 2].bind_image(1, GL_WRITE_ONLY);
     shrink_.set("level", static_cast<int>(level));
+    shrink_.set("narrow_level", static_cast<int>(narrow_level));
     shrink_.set("coarsest", static_cast<int>(targets.levels.size() - 1));
     shrink_.run(targets.size);
 }

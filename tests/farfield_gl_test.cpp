@@ -314,6 +314,18 @@ TEST_F(Farfield, IsFiniteRepeatableAndSeedsMatter) {
     EXPECT_EQ(read(scene, Method::farfield, 3).pixels, first.pixels);
 }
 
+/// One sample for each pixel, as while a hand moves something: nothing tells its variance but the pixels around.
+TEST_F(Farfield, OneSampleIsFilteredToo) {
+    Scene scene = bundled("cornell");
+    scene.settings.samples = 16;
+    accumulate(scene, 16, 99);
+    const Image truth = read(scene, Method::reference, 0);
+    scene.settings.samples = 1;
+    accumulate(scene, 1);
+    EXPECT_LT(compare(read(scene, Method::farfield, 3), truth).rmse,
+              0.5 * compare(read(scene, Method::reference, 0), truth).rmse);
+}
+
 /// Another AO radius restarts the split alone: the reference and the coarse far light keep every sample, and the
 /// picture right after stays near the one before.
 TEST_F(Farfield, AnotherAoRadiusKeepsAllFarLight) {

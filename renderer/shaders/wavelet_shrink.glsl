@@ -11,16 +11,17 @@ layout(binding = 4) uniform sampler2D finer_near;
 layout(binding = 5) uniform sampler2D finer_gain;
 layout(binding = 6) uniform sampler2D coarsest_far;
 layout(binding = 7) uniform sampler2D coarsest_near;  // w: variance of a single pixel, averaged as widely as anything
-layout(binding = 8) uniform sampler2D first_far;    // w: openness A of the pixel and its neighbours
+layout(binding = 8) uniform sampler2D narrow_far;     // w: openness A, see narrow_level
 layout(binding = 0, rgba32f) writeonly uniform image2D estimate;
 layout(binding = 1, rgba32f) writeonly uniform image2D finer_detail;
 
 uniform int level;
-uniform int coarsest;  // its number
+uniform int coarsest;      // its number
+uniform int narrow_level;  // whose openness is the one in front
 
-// A B[F] / B[A] + B[N]: mean far radiance, which is smooth, times the openness of the pixel and its neighbours, plus near light.
+// A B[F] / B[A] + B[N]: mean far radiance, which is smooth, times the openness of a narrow filter, plus near light.
 vec3 light(vec4 far, vec3 near, float openness, int at_level) {
-    float ratio = at_level > 1 && far.w > 0.0 ? openness / far.w : 1.0;
+    float ratio = at_level > narrow_level && far.w > 0.0 ? openness / far.w : 1.0;
     return near + ratio * far.rgb;
 }
 
@@ -48,7 +49,7 @@ void main() {
         }
     float bias = max(energy - 1.25 * noise, 0.0);  // k: measured, see METHOD.md
     float alpha = bias > 0.0 ? bias / (bias + noise) : 0.0;
-    float openness = texelFetch(first_far, at, 0).w;
+    float openness = texelFetch(narrow_far, at, 0).w;
     vec4 widest = texelFetch(coarsest_near, at, 0);
     vec3 result = level == coarsest ? light(texelFetch(coarsest_far, at, 0), widest.rgb, openness, level)
                                     : texelFetch(coarser, at, 0).rgb + alpha * texelFetch(detail, at, 0).rgb;

@@ -20,7 +20,9 @@ void main() {
     // of all samples, also of those from before the change.
     far = near.w > 0.0 ? far / near.w : vec4(mean, any_surface ? 1.0 : 0.0);
     near.rgb = mean - far.rgb;
-    float spread = max(square_sum[pixel] / max(whole.w, 1.0) - dot(mean, mean) / 3.0, 0.0);
+    // One sample does not tell its mean from chance: its square bounds the variance.
+    float known = whole.w > 1.0 ? dot(mean, mean) / 3.0 : 0.0;
+    float spread = max(square_sum[pixel] / max(whole.w, 1.0) - known, 0.0);
     vec3 normal = normalize(geometry.xyz + vec3(0.0, 1e-9, 0.0));
     imageStore(far_light, at, far);
     imageStore(near_light, at, vec4(near.rgb, spread / max(whole.w - 1.0, 1.0) * (1.0 + 4.0 / max(whole.w, 1.0))));
