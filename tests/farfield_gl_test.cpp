@@ -326,6 +326,34 @@ TEST_F(Farfield, OneSampleIsFilteredToo) {
               0.5 * compare(read(scene, Method::reference, 0), truth).rmse);
 }
 
+/// Showing can be interrupted between levels: the texture is as it was, and the next picture is right.
+TEST_F(Farfield, AnInterruptedPictureLeavesNoTrace) {
+    const Scene scene = bundled("cornell");
+    accumulate(scene, 2);
+    const std::vector<unsigned char> whole = renderer_->display_pixels();
+    const gl::Texture texture("picture", GL_RGBA8, options_.size);
+    const auto pixels = [&] {
+        std::vector<unsigned char> rgb(whole.size());
+        glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+        texture.bind(0);
+        glPixelStorei(GL_PACK_ALIGNMENT, 1);
+        glGetTexImage(GL_TEXTURE_2D, 0, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+        return rgb;
+    };
+    ASSERT_TRUE(renderer_->display(texture));
+    EXPECT_EQ(pixels(), whole);
+    renderer_->render_frame();
+    for (const int last : {1, 2, 6}) {
+        int asked = 0;
+        EXPECT_FALSE(renderer_->display(texture, [&] { return ++asked == last; }));
+        EXPECT_EQ(asked, last);
+        EXPECT_EQ(pixels(), whole);
+    }
+    ASSERT_TRUE(renderer_->display(texture, [] { return false; }));
+    EXPECT_EQ(pixels(), renderer_->display_pixels());
+    EXPECT_NE(pixels(), whole);
+}
+
 /// Another AO radius restarts the split alone: the reference and the coarse far light keep every sample, and the
 /// picture right after stays near the one before.
 TEST_F(Farfield, AnotherAoRadiusKeepsAllFarLight) {
