@@ -31,7 +31,7 @@ struct Statistics {
     std::string device;                 ///< what OpenGL calls the renderer
 };
 
-/// "3 bounces; bounce 4 adds 0.3 %", the latter where it was measured.
+/// "3 bounces; bounce 4 adds 0.3 %", the latter where it was measured; empty before the first picture.
 std::string bounces_text(const Statistics& statistics);
 
 }  // namespace farfield
