@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -99,7 +101,10 @@ void Overrides::apply(Settings& settings) const {
                 const char* start = text.data() + (text.starts_with('+') && !text.starts_with("+-") ? 1 : 0);
                 const char* stop = text.data() + text.size();
                 const auto [end, error] = std::from_chars(start, stop, value.x);
-                read = error == std::errc() && end == stop && why_refused(field.parameter, value).empty();
+                read = error == std::errc() && end == stop && why_refused(field.parameter, value).empty() &&
+                       !field.parameter.is_word(value.x);
+                if (field.parameter.word && text == field.parameter.word)
+                    value.x = field.parameter.lowest(), read = true;
             }
             if (!read)
                 throw std::invalid_argument(
@@ -132,10 +137,13 @@ int run_render(const RenderOptions& options) {
     frame.size = options.size;
     frame.view = options.view;
     frame.seed = options.seed;
+    frame.measure_bounces = true;
     renderer.update(headless.scene, frame);
     Progress progress("rendering", options.frames);
     if (!render_frames(renderer, options.frames, progress)) return 1;
     write_outputs(renderer, options.outputs, options.view);
+    if (headless.scene.settings.bounces == 0 || isatty(STDERR_FILENO))
+        fmt::print(stderr, "{}\n", bounces_text(renderer.statistics()));
     return 0;
 }
 
@@ -157,9 +165,10 @@ int run_bench(const BenchOptions& options) {
     Renderer& renderer = *headless.renderer;
     FrameOptions frame;
     frame.size = options.size;
-    fmt::print("scene     {}, {} nodes\ndevice    {} ({})\npicture   {} x {}, {} samples per frame, {} bounces\n",
+    fmt::print("scene     {}, {} nodes\ndevice    {} ({})\npicture   {} x {}, {} samples per frame, {}\n",
                options.scene.string(), count_nodes(scene), renderer.statistics().device, headless.context->name(),
-               options.size.x, options.size.y, scene.settings.samples, scene.settings.bounces);
+               options.size.x, options.size.y, scene.settings.samples,
+               scene.settings.bounces > 0 ? fmt::format("{} bounces", scene.settings.bounces) : "automatic bounces");
 
     for (const Tier tier : {Tier::specialised, Tier::live}) {
         if (tier == Tier::live && !options.live) break;

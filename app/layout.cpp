@@ -103,7 +103,7 @@ Layout::Layout(const Theme& theme)
     : left_(theme.px(250.0f)),
       right_(theme.px(336.0f)),
       objects_(theme.px(238.0f)),
-      settings_(theme.px(246.0f)),
+      settings_(theme.px(274.0f)),
       code_width_(theme.px(660.0f)),
       code_height_(theme.px(330.0f)) {}
 
@@ -126,7 +126,7 @@ void Layout::draw_panels(Ui& ui, ImVec2 low, ImVec2 size, const Document& docume
     panel("inspector", {right_x, low.y}, {right, inspector_height},
           [&] { append(result.edits, inspector_panel(ui, scene)); });
     panel("settings", {right_x, low.y + inspector_height + bar}, {right, settings},
-          [&] { append(result.edits, settings_panel(ui, scene)); });
+          [&] { append(result.edits, settings_panel(ui, scene, picture.statistics)); });
 
     split(ui, "left", {low.x + left, low.y}, {bar, size.y}, left, 1.0f, left_);
     split(ui, "right", {right_x - bar, low.y}, {bar, size.y}, right, -1.0f, right_);

@@ -127,7 +127,9 @@ void add_common(CLI::App& command, glm::ivec2& size, ContextKind& context, Overr
                 option_name(p.key),
                 [&overrides, key = p.key](const std::string& text) { overrides.values.emplace_back(key, text); },
                 fmt::format("{} (default: the scene's)", p.tip))
-            ->type_name(p.choices.empty() ? "NUMBER" : fmt::format("{}", fmt::join(p.choices, "|")));
+            ->type_name(!p.choices.empty() ? fmt::format("{}", fmt::join(p.choices, "|"))
+                        : p.word           ? fmt::format("NUMBER|{}", p.word)
+                                           : "NUMBER");
     }
 }
 

@@ -35,6 +35,7 @@ struct HemisphereRays {
     bool stratified;
     bool start_path;
     float reach;
+    std::size_t spread = 0;
 
     void run(const gl::Program& program, const Work& work) const {
         program.set("ray_count", static_cast<unsigned>(work.count));
@@ -45,11 +46,16 @@ struct HemisphereRays {
         program.set("stratified", stratified ? 1 : 0);
         program.set("start_path", start_path ? 1 : 0);
         program.set("reach", reach);
+        program.set("spread", static_cast<unsigned>(spread));
         program.run(work.count);
     }
 };
 
-constexpr unsigned occlusion_stream = 100;  // apart from the bounces' streams 0..8
+constexpr unsigned occlusion_stream = 100, measure_stream = 200;  // apart from the bounces' streams 0..8
+
+/// Of the wavelet: its openness is the one in front of the mean far light. Narrower ones bring noise, wider ones blur
+/// contact.
+constexpr std::size_t narrow_level = 2;
 
 }  // namespace
 
@@ -126,23 +132,51 @@ void FarLightPass::run(const Work& work, unsigned sample_index, int bounces, flo
         HemisphereRays{
             first ? work.first_pixel : 0, sample_index, static_cast<unsigned>(bounce), first, first, far_reach}
             .run(hemisphere_, work);
-        work.tracer.trace(work.count, true, work.counting);
-        work.batch.vertices.bind_storage(binding::surfaces);
-        bounce_.set("ray_count", static_cast<unsigned>(work.count));
-        bounce_.set("first_bounce", first ? 1 : 0);
-        bounce_.run(work.count);
-        for (int light = 0; light < work.light_count; ++light) {
-            trace_shadow_rays(light_rays_, work, 0, light);
-            light_.set("ray_count", static_cast<unsigned>(work.count));
-            light_.set("light_index", static_cast<unsigned>(light));
-            light_.run(work.count);
-        }
+        follow(work, first);
     }
     work.targets.surfaces.bind_storage(binding::surfaces);
     gather_.set("ray_count", static_cast<unsigned>(work.count));
     gather_.set("first_pixel", static_cast<unsigned>(work.first_pixel));
     gather_.set("near_radius", near_radius);
     gather_.run(work.count);
+}
+
+void FarLightPass::follow(const Work& work, bool first) const {
+    work.tracer.trace(work.count, true, work.counting);
+    work.batch.vertices.bind_storage(binding::surfaces);
+    bounce_.set("ray_count", static_cast<unsigned>(work.count));
+    bounce_.set("first_bounce", first ? 1 : 0);
+    bounce_.run(work.count);
+    for (int light = 0; light < work.light_count; ++light) {
+        trace_shadow_rays(light_rays_, work, 0, light);
+        light_.set("ray_count", static_cast<unsigned>(work.count));
+        light_.set("light_index", static_cast<unsigned>(light));
+        light_.run(work.count);
+    }
+}
+
+std::vector<double> FarLightPass::measure(const Work& work, int bounces) const {
+    std::vector<double> light;
+    std::vector<PathRecord> paths(work.count);
+    for (int bounce = 0; bounce < bounces; ++bounce) {
+        const bool first = bounce == 0;
+        HemisphereRays{0,
+                       0,
+                       measure_stream + static_cast<unsigned>(bounce),
+                       false,
+                       first,
+                       far_reach,
+                       first ? work.targets.pixels() : 0}
+            .run(hemisphere_, work);
+        follow(work, first);
+        glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+        work.batch.paths.read(paths.data(), paths.size() * sizeof(PathRecord));
+        double sum = 0.0;
+        for (const PathRecord& path : paths) sum += path.radiance.x + path.radiance.y + path.radiance.z;
+        light.push_back(sum / (3.0 * static_cast<double>(paths.size())));
+    }
+    work.targets.surfaces.bind_storage(binding::surfaces);
+    return light;
 }
 
 void OcclusionPass::run(const Work& work, unsigned sample_index, float radius) const {
@@ -174,66 +208,82 @@ const gl::Texture& FilterPass::run(Targets& targets, int blur_levels) const {
     return targets.blurred;
 }
 
-const gl::Texture& WaveletPass::run(Targets& targets, int blur_levels) const {
-    const glm::ivec2 size = targets.size;
-    const auto levels = static_cast<std::size_t>(std::max(blur_levels, 0));
+bool WaveletPass::run(Targets& targets, int blur_levels, const std::function<bool()>& stop) const {
+    const std::size_t levels = blur_levels > 0 ? static_cast<std::size_t>(blur_levels) + 1 : 0;
+    make_textures(targets, levels);
+    targets.levels[0].far.bind_image(0, GL_WRITE_ONLY);
+    targets.levels[0].near.bind_image(1, GL_WRITE_ONLY);
+    targets.guide.bind_image(2, GL_WRITE_ONLY);
+    start_.run(targets.size);
+    targets.guide.bind(0);
+    for (const unsigned direction : {0u, 1u}) targets.links[direction][0].bind_image(direction, GL_WRITE_ONLY);
+    links_.run(targets.size);
+    for (std::size_t i = 0; i < levels; ++i) {
+        if (stop && stop()) return false;
+        // Rows first or columns first in turn, so that edges treat both alike.
+        smooth(targets, i, i % 2, targets.levels[i], targets.half_level);
+        smooth(targets, i, 1 - i % 2, targets.half_level, targets.levels[i + 1]);
+    }
+    for (std::size_t i = levels + 1; i-- > 0;) {
+        if (stop && stop()) return false;
+        shrink(targets, i);
+    }
+    return true;
+}
+
+void WaveletPass::make_textures(Targets& targets, std::size_t levels) const {
     const auto make = [&](gl::Texture& texture, const char* label, GLenum format = GL_RGBA32F) {
-        if (!texture) texture = gl::Texture(label, format, size);
+        if (!texture) texture = gl::Texture(label, format, targets.size);
+    };
+    const auto make_level = [&](WaveletLevel& level) {
+        make(level.far, "far level");
+        make(level.near, "near level");
+        make(level.gain, "noise gain", GL_R32F);
     };
     make(targets.guide, "guide");
-    make(targets.detail, "detail");
+    for (gl::Texture& texture : targets.details) make(texture, "detail");
     for (gl::Texture& texture : targets.estimates) make(texture, "estimate");
-    targets.far_levels.resize(levels + 1);
-    targets.near_levels.resize(levels + 1);
-    targets.gain_levels.resize(levels + 1);
-    targets.link_levels.resize(levels + 1);
-    for (gl::Texture& texture : targets.far_levels) make(texture, "far level");
-    for (gl::Texture& texture : targets.near_levels) make(texture, "near level");
-    for (gl::Texture& texture : targets.gain_levels) make(texture, "noise gain", GL_R32F);
-    for (gl::Texture& texture : targets.link_levels) make(texture, "links", GL_RG32F);
+    for (auto& direction : targets.links)
+        for (gl::Texture& texture : direction) make(texture, "links", GL_R32F);
+    targets.levels.resize(levels + 1);
+    for (WaveletLevel& level : targets.levels) make_level(level);
+    make_level(targets.half_level);
+}
 
-    targets.far_levels[0].bind_image(0, GL_WRITE_ONLY);
-    targets.near_levels[0].bind_image(1, GL_WRITE_ONLY);
-    targets.gain_levels[0].bind_image(2, GL_WRITE_ONLY);
-    targets.guide.bind_image(3, GL_WRITE_ONLY);
-    start_.run(size);
-    for (std::size_t i = 0; i < levels; ++i) {
-        targets.link_levels[i > 0 ? i - 1 : levels].bind(0);
-        targets.guide.bind(1);
-        targets.link_levels[i].bind_image(0, GL_WRITE_ONLY);
-        links_.set("stride", 1 << i);
-        links_.run(size);
-        targets.link_levels[i].bind(4);
-        targets.far_levels[i].bind(0);
-        targets.near_levels[i].bind(1);
-        targets.guide.bind(2);
-        targets.gain_levels[i].bind(3);
-        targets.gain_levels[i + 1].bind_image(2, GL_WRITE_ONLY);
-        targets.far_levels[i + 1].bind_image(0, GL_WRITE_ONLY);
-        targets.near_levels[i + 1].bind_image(1, GL_WRITE_ONLY);
-        smooth_.set("stride", 1 << i);
-        smooth_.run(size);
-    }
-    // From the coarsest level, taken as it is, to the unfiltered one.
-    for (std::size_t i = levels + 1; i-- > 0;) {
-        const gl::Texture& coarser = targets.estimates[(i + 1) % 2];
-        targets.far_levels[i].bind(0);
-        targets.near_levels[i].bind(1);
-        targets.gain_levels[i].bind(2);
-        coarser.bind(3);
-        targets.near_levels[levels].bind(4);
-        targets.detail.bind_image(0, GL_WRITE_ONLY);
-        detail_.set("level", static_cast<int>(i));
-        detail_.set("coarsest", i == levels ? 1 : 0);
-        detail_.run(size);
-        targets.detail.bind(0);
-        targets.guide.bind(2);
-        targets.estimates[i % 2].bind_image(0, GL_WRITE_ONLY);
-        shrink_.set("level", static_cast<int>(i));
-        shrink_.set("coarsest", i == levels ? 1 : 0);
-        shrink_.run(size);
-    }
-    return targets.estimates[0];
+void WaveletPass::smooth(const Targets& targets, std::size_t level, std::size_t direction, const WaveletLevel& source,
+                         const WaveletLevel& target) const {
+    source.far.bind(0);
+    source.near.bind(1);
+    targets.guide.bind(2);
+    source.gain.bind(3);
+    targets.links[direction][level % 2].bind(4);
+    target.far.bind_image(0, GL_WRITE_ONLY);
+    target.near.bind_image(1, GL_WRITE_ONLY);
+    target.gain.bind_image(2, GL_WRITE_ONLY);
+    targets.links[direction][(level + 1) % 2].bind_image(3, GL_WRITE_ONLY);
+    smooth_.set("step_x", direction == 0 ? 1 << level : 0);
+    smooth_.set("step_y", direction == 0 ? 0 : 1 << level);
+    smooth_.set("first", &source == &targets.levels[0] ? 1 : 0);
+    smooth_.run(targets.size);
+}
+
+void WaveletPass::shrink(const Targets& targets, std::size_t level) const {
+    const WaveletLevel &finer = targets.levels[level > 0 ? level - 1 : 0], &coarsest = targets.levels.back();
+    targets.details[level % 2].bind(0);
+    targets.estimates[(level + 1) % 2].bind(1);
+    targets.guide.bind(2);
+    finer.far.bind(3);
+    finer.near.bind(4);
+    finer.gain.bind(5);
+    coarsest.far.bind(6);
+    coarsest.near.bind(7);
+    targets.levels[std::min(narrow_level, targets.levels.size() - 1)].far.bind(8);
+    targets.estimates[level % 2].bind_image(0, GL_WRITE_ONLY);
+    targets.details[(level + 1) % 2].bind_image(1, GL_WRITE_ONLY);
+    shrink_.set("level", static_cast<int>(level));
+    shrink_.set("narrow_level", static_cast<int>(narrow_level));
+    shrink_.set("coarsest", static_cast<int>(targets.levels.size() - 1));
+    shrink_.run(targets.size);
 }
 
 void SynthesisPass::run(const Targets& targets, const gl::Texture& filtered, const gl::Texture& estimate, int view,

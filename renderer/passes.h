@@ -6,9 +6,15 @@
 #include "renderer/trace_program.h"
 #include "sdf/scene.h"
 
+#include <functional>
 #include <vector>
 
 namespace farfield {
+
+/// Far and near light as one level of the wavelet has them, and the share of a pixel's variance that is left.
+struct WaveletLevel {
+    gl::Texture far, near, gain;
+};
 
 /// Accumulators of one resolution; sums over frames, see shaders/common.glsl.
 struct Targets {
@@ -23,9 +29,10 @@ struct Targets {
         far_light{"far light"}, indirect{"indirect"}, occlusion{"occlusion"}, split_far{"split far"},
         split_near{"split near"}, squares{"squares"};
     gl::Texture mips, blurred, view;
-    std::vector<gl::Texture> far_levels, near_levels, gain_levels,
-        link_levels;  ///< of the wavelet; the first level is unfiltered
-    gl::Texture guide, detail, estimates[2];
+    std::vector<WaveletLevel> levels;  ///< the first is unfiltered
+    WaveletLevel half_level;           ///< between two: filtered in one direction
+    gl::Texture guide, links[2][2];    ///< links to the right and below, of the odd and the even levels
+    gl::Texture details[2], estimates[2];
 };
 
 /// Buffers for as many rays as one dispatch may have: bounded, so that memory does not grow with the picture and work
@@ -74,8 +81,13 @@ private:
 class FarLightPass {
 public:
     void run(const Work& work, unsigned sample_index, int bounces, float near_radius) const;
+    /// Mean irradiance / pi after each bounce, on work.count paths that start all over the picture; accumulates
+    /// nothing.
+    std::vector<double> measure(const Work& work, int bounces) const;
 
 private:
+    /// Traces the rays of the batch, adds what the paths meet, and lights it.
+    void follow(const Work& work, bool first) const;
     gl::Program hemisphere_ = load_program("hemisphere.glsl"), bounce_ = load_program("bounce.glsl"),
                 light_rays_ = load_program("light_rays.glsl"), light_ = load_program("bounce_light.glsl"),
                 gather_ = load_program("gather.glsl");
@@ -104,13 +116,19 @@ private:
 /// The consistent near/far estimate: à-trous wavelet and James-Stein shrinkage from coarse to fine; see METHOD.md.
 class WaveletPass {
 public:
-    /// Returns irradiance / pi, and leaves the coarsest far light in targets.far_levels.back().
-    const gl::Texture& run(Targets& targets, int blur_levels) const;
+    /// One level of the wavelet more than `blur_levels` (0 stays 0): so wide is the paper's filter, see METHOD.md.
+    /// Leaves irradiance / pi in targets.estimates[0] and the coarsest far light in targets.levels.back(). Asks `stop`,
+    /// if there is one, between levels; false when it said so and nothing is there to be shown.
+    bool run(Targets& targets, int blur_levels, const std::function<bool()>& stop) const;
 
 private:
+    void make_textures(Targets& targets, std::size_t levels) const;
+    /// Half a level: along rows (direction 0) or columns (1).
+    void smooth(const Targets& targets, std::size_t level, std::size_t direction, const WaveletLevel& source,
+                const WaveletLevel& target) const;
+    void shrink(const Targets& targets, std::size_t level) const;
     gl::Program start_ = load_program("wavelet_start.glsl"), links_ = load_program("wavelet_links.glsl"),
-                smooth_ = load_program("wavelet_smooth.glsl"), detail_ = load_program("wavelet_detail.glsl"),
-                shrink_ = load_program("wavelet_shrink.glsl");
+                smooth_ = load_program("wavelet_smooth.glsl"), shrink_ = load_program("wavelet_shrink.glsl");
 };
 
 /// Accumulators and filtered light to targets.view, linear.

@@ -45,12 +45,20 @@ struct LightRecord {
 };
 static_assert(sizeof(LightRecord) == 32);
 
+struct PathRecord {
+    glm::vec3 throughput;
+    float first_hit;
+    glm::vec3 radiance;
+    float unused;
+};
+static_assert(sizeof(PathRecord) == 32);
+
 struct CounterRecord {
     std::uint32_t rays = 0, steps = 0, exhausted_rays = 0, unused = 0;
 };
 
-inline constexpr std::size_t ray_bytes = 32, hit_bytes = 16, surface_bytes = 32, path_bytes = 32, sum_bytes = 16,
-                             square_bytes = 4;
+inline constexpr std::size_t ray_bytes = 32, hit_bytes = 16, surface_bytes = 32, path_bytes = sizeof(PathRecord),
+                             sum_bytes = 16, square_bytes = 4;
 
 /// Binding points of storage buffers, and of uniform buffers.
 namespace binding {

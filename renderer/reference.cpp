@@ -69,6 +69,14 @@ double Reference::noise_relative_mse() const {
     return relative_mse(noisy, reference);
 }
 
+namespace {
+/// Automatic bounces leave out what is too little to be seen; the reference does not.
+Scene with_all_bounces(Scene scene) {
+    if (scene.settings.bounces == 0) scene.settings.bounces = most_bounces;
+    return scene;
+}
+}  // namespace
+
 std::string sha256(std::string_view bytes) {
     char digits[SHA256_DIGEST_STRING_LENGTH];
     SHA256Data(reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size(), digits);
@@ -94,7 +102,7 @@ std::string shader_hash(bool all) {
 std::string reference_key(const Scene& scene, glm::ivec2 size) {
     static const std::string shaders = shader_hash(false);
     const int numbers[] = {version, frame_samples, size.x, size.y};
-    std::string bytes = transport_bytes(scene, FrameOptions{}) + shaders;
+    std::string bytes = transport_bytes(with_all_bounces(scene), FrameOptions{}) + shaders;
     bytes.append(reinterpret_cast<const char*>(numbers), sizeof numbers);
     return sha256(bytes);
 }
@@ -108,6 +116,7 @@ int frames_to_extend(const Reference& reference, int samples) {
 
 bool extend(Reference& reference, Renderer& renderer, Scene scene, glm::ivec2 size, int samples,
             const std::function<bool()>& frame_done, const std::function<void()>& portion_done) {
+    scene = with_all_bounces(std::move(scene));
     scene.settings.method = Method::reference;
     FrameOptions options;
     options.size = size;

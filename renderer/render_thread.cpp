@@ -19,7 +19,8 @@ using Clock = std::chrono::steady_clock;
 /// A hand that has not moved anything for so long rests: time to make programs.
 constexpr auto rest = std::chrono::milliseconds(250);
 /// An edit that comes meanwhile waits for the program that is being made. So those that nobody needs yet wait for so
-/// many times what the last one took: 128 nodes, duplicated soon after selecting one, show 0.45 s later instead of 0.75 s.
+/// many times what the last one took: 128 nodes, duplicated soon after selecting one, show 0.45 s later instead of 0.75
+/// s.
 constexpr double patience = 2.5;
 /// What a picture may take while a hand moves something, and the first one after an edit, which often had to wait for a
 /// program.
@@ -68,6 +69,7 @@ struct RenderThread::State {
     std::uint64_t serial = 0;
     double milliseconds_per_pixel_sample = 0.0;  ///< measured on the last frame; 0: not yet
     bool unshown = false;                        ///< another view, other settings or a finished frame
+    bool dropped = false;                        ///< the last picture was outdated before it was filtered
     int shown_samples = 0;
     bool preview = false;   ///< the first picture after an edit, quick and small
     bool prepared = false;  ///< every program that the next edit may need is there
@@ -79,6 +81,7 @@ struct RenderThread::State {
     void update(Tier tier, Id tuned);
     bool compile_in_background();
     void work();
+    bool outdated();
     void show();
     bool finished() const {
         return current.max_frames > 0 && renderer->statistics().frames >= current.max_frames && !quick();
@@ -198,6 +201,7 @@ void RenderThread::State::update(Tier tier, Id tuned) {
     options.size = quick() ? quick_size() : current.size;
     options.view = current.view;
     options.samples = quick() ? 1 : 0;
+    options.measure_bounces = !quick();
     if (milliseconds_per_pixel_sample > 0.0)
         options.batch = static_cast<std::size_t>(step_milliseconds / milliseconds_per_pixel_sample) / 64 * 64;
     else
@@ -272,9 +276,14 @@ void RenderThread::State::work() {
     }
 }
 
+/// Whether filtering the picture is in vain, because a newer request has come. Not twice in a row: something must be
+/// seen.
+bool RenderThread::State::outdated() {
+    const std::lock_guard lock(mutex);
+    return stop || (next && !quick() && !dropped);
+}
+
 void RenderThread::State::show() {
-    unshown = false;
-    shown_samples = renderer->statistics().samples;
     int free = 0;
     {
         const std::lock_guard lock(mutex);
@@ -284,7 +293,10 @@ void RenderThread::State::show() {
     if (!slot.texture || slot.texture.size() != renderer->size())
         slot.texture = gl::Texture("picture", GL_RGBA8, renderer->size());
     const Clock::time_point start = Clock::now();
-    renderer->display(slot.texture);
+    dropped = !renderer->display(slot.texture, [this] { return outdated(); });
+    unshown = dropped;
+    if (dropped) return;
+    shown_samples = renderer->statistics().samples;
     if (slot.fence) glDeleteSync(slot.fence);
     slot.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     glFlush();

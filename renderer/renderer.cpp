@@ -28,6 +28,11 @@ glm::vec2 pixel_offset(int n) {
     return n == 0 ? glm::vec2(0.0f) : glm::vec2(radical_inverse(n, 2), radical_inverse(n, 3)) - 0.5f;
 }
 
+/// A further bounce that adds less to the mean of indirect light is left out by automatic bounces. So many paths tell
+/// what adds that much to a few tenths of it.
+constexpr float bounce_threshold = 0.005f;
+constexpr std::size_t measured_paths = 4096;
+
 /// Camera, sky and size as the kernels take them.
 FrameRecord frame_record(const Scene& scene, const FrameOptions& options, int frame) {
     const Camera& camera = scene.camera;
@@ -127,6 +132,7 @@ void Renderer::discard() {
     completed_cameras_ = 0;
     far_samples_ = 0;
     occlusion_samples_ = 0;
+    bounces_measured_ = false;
     statistics_.frames = 0;
     statistics_.samples = 0;
 }
@@ -174,7 +180,7 @@ bool Renderer::step() {
     } else {
         {
             Timers::Scope scope(timers_, "far light");
-            far_light_pass_.run(w, far_samples_, scene_.settings.bounces, scene_.settings.ao_radius);
+            far_light_pass_.run(w, far_samples_, bounces(), scene_.settings.ao_radius);
         }
         Timers::Scope scope(timers_, "ambient occlusion");
         for (unsigned ray = 0; ray < occlusion_rays(); ++ray)
@@ -185,6 +191,13 @@ bool Renderer::step() {
     first_pixel_ = 0;
     if (sample_ < 0) {
         ++completed_cameras_;
+        const int before = bounces();
+        if (options_.measure_bounces ? !bounces_measured_ : before == 0) measure_bounces();
+        if (bounces() != before && far_samples_ > 0) {
+            discard();
+            return false;
+        }
+        statistics_.bounces = bounces();
     } else {
         ++far_samples_;
         occlusion_samples_ += occlusion_rays();
@@ -193,6 +206,24 @@ bool Renderer::step() {
     if (++sample_ < frame_samples_) return false;
     finish_frame();
     return true;
+}
+
+void Renderer::measure_bounces() {
+    Timers::Scope scope(timers_, "bounces");
+    Work work = next_work();
+    work.count = measured_paths;
+    work.counting = false;
+    const std::vector<double> light = far_light_pass_.measure(work, most_bounces + 1);
+    std::vector<float>& shares = statistics_.bounce_shares;
+    shares.assign(1, 1.0f);
+    for (std::size_t i = 1; i < light.size(); ++i) {
+        const double added = light[i] - light[i - 1];
+        shares.push_back(added > 0.0 ? static_cast<float>(added / std::max(light[i - 1], 0.01 * added)) : 0.0f);
+    }
+    automatic_bounces_ = most_bounces;
+    while (automatic_bounces_ > 1 && shares[static_cast<std::size_t>(automatic_bounces_) - 1] < bounce_threshold)
+        --automatic_bounces_;
+    bounces_measured_ = true;
 }
 
 void Renderer::finish_frame() {
@@ -217,21 +248,23 @@ void Renderer::render_frame() {
     while (!step()) {}
 }
 
-void Renderer::synthesise(View view) {
+bool Renderer::synthesise(View view, const std::function<bool()>& stop) {
     frame_.bind_uniform(binding::frame);
     targets_->bind();
     const Settings& settings = scene_.settings;
     const bool split = settings.method == Method::farfield;
-    if (split) wavelet_pass_.run(*targets_, settings.blur_levels);
+    if (split && !wavelet_pass_.run(*targets_, settings.blur_levels, stop)) return false;
     const gl::Texture& filtered =
-        split ? targets_->far_levels.back() : filter_pass_.run(*targets_, settings.blur_levels);
+        split ? targets_->levels.back().far : filter_pass_.run(*targets_, settings.blur_levels);
     synthesis_pass_.run(*targets_, filtered, targets_->estimates[0], static_cast<int>(view), settings.method,
                         completed_cameras_);
+    return true;
 }
 
-void Renderer::display(const gl::Texture& output) {
-    synthesise(options_.view);
+bool Renderer::display(const gl::Texture& output, const std::function<bool()>& stop) {
+    if (!synthesise(options_.view, stop)) return false;
     display_pass_.run(*targets_, output, static_cast<int>(options_.view), scene_.settings.exposure);
+    return true;
 }
 
 std::vector<unsigned char> Renderer::display_pixels() {

@@ -14,10 +14,13 @@
 #include "sdf/scene.h"
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 
 namespace farfield {
+
+inline constexpr int most_bounces = 8;  ///< that automatic bounces come to
 
 struct FrameOptions {
     glm::ivec2 size{512, 512};
@@ -26,6 +29,7 @@ struct FrameOptions {
     Tier tier = Tier::specialised;  ///< live: no parameter edit needs a new program
     Id tuned = 0;                   ///< node with live parameters in the specialised tier
     int samples = 0;                ///< hemisphere rays per pixel and frame; 0: the scene's setting
+    bool measure_bounces = false;   ///< what each adds; automatic bounces otherwise go on with what was measured last
     bool counting = false;          ///< count rays and evaluations; costs a little
     float minimum_step = 1.0f;      ///< of the tracer, times the usual: how far off hits may be
     bool occlusion = true;          ///< trace ambient occlusion; Method::reference needs none
@@ -63,8 +67,9 @@ public:
     bool displayable() const;
     void render_frame();
 
-    /// The current view in 8 bits, into a texture of the picture's size.
-    void display(const gl::Texture& output);
+    /// The current view in 8 bits, into a texture of the picture's size. `stop` is asked now and then; false when it
+    /// said so, and the texture is as it was.
+    bool display(const gl::Texture& output, const std::function<bool()>& stop = {});
     std::vector<unsigned char> display_pixels();  ///< RGB, row 0 at the top
     Image read(View view);                        ///< linear
 
@@ -74,8 +79,10 @@ public:
 private:
     void begin_frame();
     void finish_frame();
-    void synthesise(View view);
+    bool synthesise(View view, const std::function<bool()>& stop = {});
     Work next_work() const;
+    int bounces() const { return scene_.settings.bounces > 0 ? scene_.settings.bounces : automatic_bounces_; }
+    void measure_bounces();
     /// For each far-light sample. One ray alone answers black or white, so the first sample takes more: a first picture
     /// without speckle for a few percent of its time.
     unsigned occlusion_rays() const { return !options_.occlusion ? 0 : occlusion_samples_ == 0 ? 4 : 1; }
@@ -107,6 +114,8 @@ private:
     int completed_cameras_ = 0;  ///< frames whose camera pass is in the accumulators
     unsigned far_samples_ = 0;   ///< of every pixel since the last discard
     unsigned occlusion_samples_ = 0;
+    int automatic_bounces_ = 0;  ///< enough by the last measurement; 0: none yet
+    bool bounces_measured_ = false;
     std::chrono::steady_clock::time_point frame_start_;
     Statistics statistics_;
 };

@@ -23,10 +23,15 @@ struct Statistics {
     double compile_milliseconds = 0.0;  ///< of the last program
     double edit_milliseconds = 0.0;     ///< from the latest change of the scene to its first picture
     bool specialised = false;           ///< the picture comes from the program with literals
+    int bounces = 0;                    ///< of far light: the setting, or what auto has come to
+    std::vector<float> bounce_shares;   ///< what each bounce adds to the mean of those before; empty: not measured
     std::uint64_t rays = 0;             ///< traced in the last frame, where they are counted (FrameOptions)
     std::uint64_t evaluations = 0;      ///< of the distance by these rays' marches
     std::uint64_t exhausted_rays = 0;   ///< of these, stopped by the step limit
     std::string device;                 ///< what OpenGL calls the renderer
 };
+
+/// "3 bounces; bounce 4 adds 0.3 %", the latter where it was measured; empty before the first picture.
+std::string bounces_text(const Statistics& statistics);
 
 }  // namespace farfield

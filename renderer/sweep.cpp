@@ -113,7 +113,8 @@ Sweep::Sweep(Scene scene, SweepPlan plan) : scene_(std::move(scene)), plan_(std:
         for (const int bounces : plan_.bounces) {
             run.readings = own_readings(Varied::bounces, own.blur_levels);
             run.bounces = bounces;
-            run.reference_bounces = std::max(own.bounces, *std::ranges::max_element(plan_.bounces));
+            run.reference_bounces =
+                own.bounces == 0 ? 0 : std::max(own.bounces, *std::ranges::max_element(plan_.bounces));
             if (bounces != own.bounces || run.reference_bounces != own.bounces) runs_.push_back(run);
         }
     }

@@ -45,14 +45,15 @@ std::string expectation(const Parameter& parameter) {
     std::string text = parameter.components() == 1 ? fmt::format("a {}", kind) : fmt::format("three {}s, each", kind);
     if (parameter.maximum >= largest_value && parameter.minimum > -largest_value)
         return text + fmt::format(" at least {} (and at most {:g})", parameter.minimum, parameter.maximum);
-    return text + fmt::format(" between {:g} and {:g}", parameter.minimum, parameter.maximum);
+    text += fmt::format(" between {:g} and {:g}", parameter.minimum, parameter.maximum);
+    return parameter.word ? fmt::format("{}, or \"{}\"", text, parameter.word) : text;
 }
 
 std::string why_refused(const Parameter& parameter, glm::vec3 value) {
     for (int i = 0; i < parameter.components(); ++i) {
         const float v = value[i];
         const bool whole = !parameter.is_whole() || v == std::floor(v);
-        if (!(v >= parameter.minimum && v <= parameter.maximum) || !whole) return "expected " + expectation(parameter);
+        if (!(v >= parameter.lowest() && v <= parameter.maximum) || !whole) return "expected " + expectation(parameter);
     }
     return {};
 }
@@ -61,7 +62,7 @@ glm::vec3 clamped(const Parameter& parameter, glm::vec3 value) {
     for (int i = 0; i < 3; ++i) {
         if (std::isnan(value[i])) value[i] = parameter.initial[i];
         if (i >= parameter.components()) continue;
-        value[i] = glm::clamp(value[i], parameter.minimum, parameter.maximum);
+        value[i] = glm::clamp(value[i], parameter.lowest(), parameter.maximum);
         if (parameter.is_whole()) value[i] = std::round(value[i]);
     }
     return value;

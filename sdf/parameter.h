@@ -36,7 +36,10 @@ struct Parameter {
     float maximum = largest_value;
     glm::vec3 initial{0.0f};  ///< the default; x alone counts for one-component types
     std::span<const char* const> choices = {};
+    const char* word = nullptr;  ///< of one whole number: what else it takes, as "auto"; stored as minimum - 1
 
+    float lowest() const { return word ? minimum - 1.0f : minimum; }  ///< stored
+    bool is_word(float value) const { return word && value < minimum; }
     int components() const;  ///< 1 or 3
     bool is_whole() const;   ///< values are whole numbers
     bool is_switch() const { return type == ParameterType::flag || type == ParameterType::flags; }

@@ -83,7 +83,7 @@ enum class Method { paper, farfield, reference };
 struct Settings {
     Method method = Method::farfield;
     int samples = 4;         ///< hemisphere rays per pixel and frame
-    int bounces = 1;         ///< diffuse bounces of far light
+    int bounces = 1;         ///< diffuse bounces of far light; 0: as many as change its mean
     int blur_levels = 3;     ///< far light is averaged over about 2^levels pixels; 0 leaves it unfiltered
     float ao_radius = 0.5f;  ///< metres
     float exposure = 0.0f;   ///< stops: the picture is multiplied by 2^exposure

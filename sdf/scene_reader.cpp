@@ -133,10 +133,13 @@ private:
             if (!flag) unexpected(path, json, "true or false");
             return *flag ? 1.0f : 0.0f;
         }
+        if (const auto* text = json.as<std::string>(); text && parameter.word && *text == parameter.word)
+            return parameter.lowest();
         const double* number = json.as<double>();
         if (!number) unexpected(path, json, parameter.components() == 1 ? expectation(parameter) : "a number");
         if (parameter.is_whole() && *number != std::floor(*number)) unexpected(path, json, expectation(parameter));
         const float component = narrowed(*number);
+        if (parameter.is_word(component)) unexpected(path, json, expectation(parameter));
         // The same value in all places asks about one component alone, so that the message names its line.
         if (std::string why = why_refused(parameter, glm::vec3(component)); !why.empty())
             fail(path, json.line, fmt::format("found {}, {}", description(json), why));

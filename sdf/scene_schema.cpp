@@ -25,9 +25,10 @@ Schema reference(std::string_view definition) { return {{"$ref", fmt::format("#/
 /// One component, or all of a parameter that has one.
 Schema component(const Parameter& parameter) {
     if (parameter.is_switch()) return {{"type", "boolean"}};
-    return {{"type", parameter.is_whole() ? "integer" : "number"},
-            {"minimum", number(parameter.minimum)},
-            {"maximum", number(parameter.maximum)}};
+    const Schema numbers{{"type", parameter.is_whole() ? "integer" : "number"},
+                         {"minimum", number(parameter.minimum)},
+                         {"maximum", number(parameter.maximum)}};
+    return parameter.word ? Schema{{"anyOf", {numbers, {{"const", parameter.word}}}}} : numbers;
 }
 
 Schema initial(const Parameter& parameter) {

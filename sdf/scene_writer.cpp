@@ -22,6 +22,7 @@ std::string text_of(const Parameter& parameter, glm::vec3 value) {
     if (parameter.type == ParameterType::choice)
         return text_of(parameter.choices[static_cast<size_t>(clamped(parameter, value).x)]);
     if (parameter.type == ParameterType::flag) return fmt::format("{}", value.x != 0.0f);
+    if (parameter.is_word(value.x)) return text_of(parameter.word);
     if (parameter.components() == 1) return text_of(value.x);
     if (parameter.type == ParameterType::flags)
         return fmt::format("[{}, {}, {}]", value.x != 0.0f, value.y != 0.0f, value.z != 0.0f);

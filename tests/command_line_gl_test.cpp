@@ -54,6 +54,16 @@ TEST(CommandLine, RenderedFilesHoldEveryViewAndRepeatBitForBit) {
                 << view.key;
 }
 
+TEST(CommandLine, AutomaticBouncesSayWhatTheyCameTo) {
+    const TemporaryFolder folder;
+    const auto picture = folder / "a.png";
+    const Outcome render = farfield_command(
+        fmt::format("render {} -o '{}' --size 64x64 --frames 1 --bounces auto", scene("cornell"), picture.string()));
+    EXPECT_EQ(render.status, 0);
+    for (const char* word : {" bounces; bounce ", " adds 0.", " %"})
+        EXPECT_NE(render.output.find(word), std::string::npos) << render.output;
+}
+
 TEST(CommandLine, GeneratedCodeIsPrinted) {
     const Outcome glsl = farfield_command("glsl " + scene("cornell"));
     EXPECT_EQ(glsl.status, 0);

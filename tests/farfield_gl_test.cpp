@@ -89,6 +89,42 @@ TEST_F(Farfield, FurnaceIsExactForEveryAoRadius) {
     }
 }
 
+/// In a furnace that emits 1 and reflects half bounce k adds 2^(1-k) to 2 - 2^(2-k).
+TEST_F(Farfield, AutomaticBouncesStopWhereTheNextAddsLittle) {
+    Scene scene;
+    const Id shell = apply(scene, InsertNode{scene.root.id, -1, make_node(NodeKind::shell)});
+    apply(scene, InsertNode{shell, -1, make_node(NodeKind::sphere)});
+    scene.materials[0].albedo = glm::vec3(0.5f);
+    scene.materials[0].emission = glm::vec3(1.0f);
+    scene.camera.position = {0.1f, 0.0f, 0.2f};
+    scene.camera.target = glm::vec3(0.0f);
+    scene.settings.bounces = 0;
+    accumulate(scene, 1);
+    const std::vector<float> shares = renderer_->statistics().bounce_shares;
+    ASSERT_EQ(shares.size(), 9u);
+    for (int k = 2; k <= 9; ++k)
+        EXPECT_NEAR(shares[static_cast<std::size_t>(k - 1)] * (2.0 - std::pow(2.0, 2 - k)), std::pow(2.0, 1 - k),
+                    0.1 * std::pow(2.0, 1 - k))
+            << k;
+    EXPECT_EQ(renderer_->statistics().bounces, 7);
+    EXPECT_EQ(bounces_text(renderer_->statistics()), "7 bounces; bounce 8 adds 0.4 %");
+    const Image automatic = read(scene, Method::reference, 0);
+    scene.settings.bounces = 7;
+    accumulate(scene, 1);
+    EXPECT_EQ(read(scene, Method::reference, 0).pixels, automatic.pixels);
+
+    // While a hand moves things the last measurement goes on; a dark scene needs one bounce.
+    scene.settings.bounces = 0;
+    scene.materials[0].albedo = glm::vec3(0.0f);
+    accumulate(scene, 1);
+    EXPECT_EQ(renderer_->statistics().bounces, 7);
+    options_.measure_bounces = true;
+    EXPECT_FALSE(renderer_->update(scene, options_));
+    while (renderer_->statistics().bounces != 1) renderer_->step();
+    EXPECT_EQ(renderer_->statistics().samples, 0);  // of seven bounces
+    options_.measure_bounces = false;
+}
+
 TEST_F(Farfield, WithoutBlurIsTheReferenceAndPaperIsUntouched) {
     const Scene scene = bundled("still_life");
     accumulate(scene, 2);
@@ -126,8 +162,9 @@ TEST_F(Farfield, ConvergesToTheReferenceForEveryAoRadius) {
     }
 }
 
-/// Two rooms of one floor, a lamp in the left one, a wall of few pixels between them, seen from above: the dark room
-/// stays dark in the first frame and in every other.
+/// Two rooms of one floor, a lamp in the left one, a wall between them, seen from above. The dark room, which no light
+/// reaches, stays dark in the first frame and in every other, up to the wall. In the first frame the camera rays pass
+/// the thinnest wall on both sides: nothing but the light itself tells the rooms apart there.
 TEST_F(Farfield, NothingLeaksAcrossAThinWall) {
     Scene scene;
     apply(scene, InsertNode{scene.root.id, -1, make_node(NodeKind::plane)});
@@ -149,20 +186,113 @@ TEST_F(Farfield, NothingLeaksAcrossAThinWall) {
     scene.camera.target = glm::vec3(0.0f);
     scene.camera.field_of_view = 26.0f;
     scene.settings.blur_levels = 4;
-    for (const float pixels : {1.0f, 2.0f, 4.0f, 8.0f}) {
-        // 64 pixels show 3.7 m of the floor.
+    for (const float pixels : {0.5f, 1.0f, 2.0f, 4.0f, 8.0f}) {
+        // 64 pixels show 3.7 m of the floor; the wall's top is nearer to the camera and looks 8 / 6 as thick.
         apply(scene, SetValue{{ObjectType::node, wall}, "half_size", {0.5f * pixels * 3.7f / 64.0f, 1.0f, 2.0f}});
+        const int beside = 32 + static_cast<int>(std::ceil(0.5f * pixels * 8.0f / 6.0f));
+        scene.settings.samples = 4;
         accumulate(scene, 1);
-        const Image image = read(scene, Method::farfield, 4);
-        double bright = 0.0, dark = 0.0;
-        for (int y = 16; y < 48; ++y)
-            for (int x = 0; x < 64; ++x) {
-                const float v = image.pixels[static_cast<std::size_t>(3 * (64 * y + x))];
-                if (x >= 8 && x < 24) bright += v / (16.0 * 32.0);
-                if (x >= 37 && x < 53) dark += v / (16.0 * 32.0);
+        for (const int samples : {4, 16, 64, 256}) {
+            // As the samples per frame change, so does nothing else.
+            while (renderer_->statistics().samples < samples) {
+                scene.settings.samples = std::min(samples - renderer_->statistics().samples, 64);
+                EXPECT_FALSE(renderer_->update(scene, options_));
+                renderer_->render_frame();
             }
-        EXPECT_GT(bright, 0.0);
-        EXPECT_LT(dark, 1e-6 * bright) << pixels;  // 7e-5 without links
+            const Image image = read(scene, Method::farfield, 4);
+            const auto columns = [&](int first, int last) {
+                double sum = 0.0;
+                for (int y = 16; y < 48; ++y)
+                    for (int x = first; x < last; ++x) sum += image.pixels[static_cast<std::size_t>(3 * (64 * y + x))];
+                return sum / (32.0 * (last - first));
+            };
+            const double bright = columns(8, 24);
+            EXPECT_GT(bright, 0.0);
+            EXPECT_LT(columns(beside, 56), 0.02 * bright) << pixels << " pixels, " << samples << " samples";
+            if (pixels >= 1.0f) {
+                EXPECT_LT(columns(37, 56), 1e-6 * bright) << pixels;  // 7e-5 without links
+            }
+        }
+    }
+}
+
+/// No visible jump while samples accumulate: the indirect light of each picture is nearer to that of the one before
+/// than that was to its own.
+TEST_F(Farfield, SuccessivePicturesComeEverCloser) {
+    const Scene scene = bundled("two_rooms");
+    const auto indirect = [&] {
+        Image image = read(scene, Method::farfield, 3);
+        const Image direct = renderer_->read(View::direct);
+        for (std::size_t i = 0; i < direct.pixels.size(); ++i) image.pixels[i] -= direct.pixels[i];
+        return image;
+    };
+    double last = 1e30;
+    for (const int frames : {1, 2, 4, 8, 16, 32}) {
+        accumulate(scene, frames);
+        const Image before = indirect();
+        renderer_->render_frame();
+        const double change = compare(before, indirect()).rmse / mean(before);
+
+        EXPECT_LT(change, 0.9 * last) << frames;
+        last = change;
+    }
+    EXPECT_LT(last, 0.02);
+}
+
+/// How far the filters spread one bright pixel on a wall across the picture: the standard deviation along a row, on the
+/// mean of where the pixel lies in the mip chain's texels.
+TEST_F(Farfield, BlurLevelsAreAsWideInThePapersFilterAsInTheWavelet) {
+    constexpr int side = 128;
+    options_.size = {side, side};
+    Scene scene;
+    scene.camera = {{0.0f, 0.0f, 1.0f}, {0.0f, 0.0f, 0.0f}, 1.0f};
+    accumulate(scene, 1);
+    read(scene, Method::reference, 0);  // leaves the camera bound
+    Targets targets(options_.size);
+    const std::vector<glm::vec4> wall(side * side, {0.0f, 0.0f, 1.0f, 1.0f}), nothing(side * side, {0, 0, 0, 1});
+    targets.geometry.upload(std::span(wall));
+    targets.direct.upload(std::span(nothing));
+    targets.split_near.upload(std::span(nothing));
+    targets.bind();
+    FilterPass mips;
+    WaveletPass wavelet;
+    SynthesisPass synthesis;
+    const auto variance = [&](Method method, int levels, int at) {
+        std::vector<glm::vec4> light = nothing;
+        light[static_cast<std::size_t>(side * at + at)] = glm::vec4(1.0f);
+        targets.far_light.upload(std::span<const glm::vec4>(light));
+        targets.split_far.upload(std::span<const glm::vec4>(light));
+        if (method == Method::paper) {
+            mips.run(targets, levels);
+        } else {
+            EXPECT_TRUE(wavelet.run(targets, levels, {}));
+        }
+        synthesis.run(targets, method == Method::paper ? targets.blurred : targets.levels.back().far, {},
+                      static_cast<int>(View::filtered), method, 1);
+        Image image{options_.size, std::vector<float>(3 * side * side)};
+        glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+        targets.view.bind(0);
+        glGetTexImage(GL_TEXTURE_2D, 0, GL_RGB, GL_FLOAT, image.pixels.data());
+        double sum = 0.0, squares = 0.0;
+        for (int i = 0; i < side * side; ++i) {
+            const double v = image.pixels[static_cast<std::size_t>(3 * i)], x = i % side - at;
+            sum += v;
+            squares += v * x * x;
+        }
+        EXPECT_NEAR(sum, 1.0,
+                    0.3);  // exactly 1 for the wavelet; a mip texel's light depends on the pixel's place in it
+        return squares / sum;
+    };
+    for (const int levels : {1, 2, 3}) {
+        double paper = 0.0, farfield = 0.0;
+        for (int i = 0; i < 8; ++i) {
+            paper += variance(Method::paper, levels, 60 + i) / 8.0;
+            farfield += variance(Method::farfield, levels, 60 + i) / 8.0;
+        }
+        // B3 spline: 1 + 4 + 16 + ...; mips: box, binomial and linear interpolation, 4^i (1/12 + 1 + 1/6).
+        const double scale = std::pow(4.0, levels);
+        EXPECT_NEAR(farfield, (4.0 * scale - 1.0) / 3.0, 0.01 * scale) << levels;
+        EXPECT_NEAR(paper, 1.25 * scale, 0.1 * scale) << levels;
     }
 }
 
@@ -184,17 +314,64 @@ TEST_F(Farfield, IsFiniteRepeatableAndSeedsMatter) {
     EXPECT_EQ(read(scene, Method::farfield, 3).pixels, first.pixels);
 }
 
+/// One sample for each pixel, as while a hand moves something: nothing tells its variance but the pixels around.
+TEST_F(Farfield, OneSampleIsFilteredToo) {
+    Scene scene = bundled("cornell");
+    scene.settings.samples = 16;
+    accumulate(scene, 16, 99);
+    const Image truth = read(scene, Method::reference, 0);
+    scene.settings.samples = 1;
+    accumulate(scene, 1);
+    EXPECT_LT(compare(read(scene, Method::farfield, 3), truth).rmse,
+              0.5 * compare(read(scene, Method::reference, 0), truth).rmse);
+}
+
+/// Showing can be interrupted between levels: the texture is as it was, and the next picture is right.
+TEST_F(Farfield, AnInterruptedPictureLeavesNoTrace) {
+    const Scene scene = bundled("cornell");
+    accumulate(scene, 2);
+    const std::vector<unsigned char> whole = renderer_->display_pixels();
+    const gl::Texture texture("picture", GL_RGBA8, options_.size);
+    const auto pixels = [&] {
+        std::vector<unsigned char> rgb(whole.size());
+        glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+        texture.bind(0);
+        glPixelStorei(GL_PACK_ALIGNMENT, 1);
+        glGetTexImage(GL_TEXTURE_2D, 0, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+        return rgb;
+    };
+    ASSERT_TRUE(renderer_->display(texture));
+    EXPECT_EQ(pixels(), whole);
+    renderer_->render_frame();
+    for (const int last : {1, 2, 6}) {
+        int asked = 0;
+        EXPECT_FALSE(renderer_->display(texture, [&] { return ++asked == last; }));
+        EXPECT_EQ(asked, last);
+        EXPECT_EQ(pixels(), whole);
+    }
+    ASSERT_TRUE(renderer_->display(texture, [] { return false; }));
+    EXPECT_EQ(pixels(), renderer_->display_pixels());
+    EXPECT_NE(pixels(), whole);
+}
+
 /// Another AO radius restarts the split alone: the reference and the coarse far light keep every sample, and the
 /// picture right after stays near the one before.
 TEST_F(Farfield, AnotherAoRadiusKeepsAllFarLight) {
     Scene scene = bundled("cornell");
     accumulate(scene, 16);
+    const int samples = renderer_->statistics().samples;
     const Image before = read(scene, Method::farfield, 3), reference = read(scene, Method::reference, 3);
-    scene.settings.ao_radius = 0.1f;
-    const Image after = read(scene, Method::farfield, 3);
-    EXPECT_EQ(read(scene, Method::reference, 3).pixels, reference.pixels);
-    EXPECT_LT(compare(before, after).rmse, 0.1 * mean(before));
+    const Image coarse = renderer_->read(View::coarse);
+    for (const float radius : {0.1f, 2.0f, 0.1f}) {
+        scene.settings.ao_radius = radius;
+        const Image after = read(scene, Method::farfield, 3);
+        EXPECT_EQ(renderer_->statistics().samples, samples);
+        EXPECT_EQ(read(scene, Method::reference, 3).pixels, reference.pixels);
+        EXPECT_EQ(renderer_->read(View::coarse).pixels, coarse.pixels);
+        EXPECT_LT(compare(before, after).rmse, 0.1 * mean(before));
+    }
     renderer_->render_frame();
+    EXPECT_EQ(renderer_->statistics().samples, samples + scene.settings.samples);
     EXPECT_LT(compare(before, read(scene, Method::farfield, 3)).rmse, 0.1 * mean(before));
 }
 

@@ -192,6 +192,8 @@ TEST(SceneFileError, OutOfRange) {
                  "found 2.00000001, expected a whole number between 1 and 64");
     expect_error("\"farfield\"", "\"$schema\": 1,\n\"farfield\"", 2, "$schema",
                  "found 1, expected a text, where the format's JSON Schema is");
+    expect_error("\"camera\"", "\"settings\": {\"bounces\": 0},\n\"camera\"", 3, "settings/bounces",
+                 "found 0, expected a whole number between 1 and 8, or \"auto\"");
     expect_error("\"camera\"", "\"settings\": {\"method\": \"papr\"},\n\"camera\"", 3, "settings/method",
                  "found \"papr\", expected one of paper, farfield, reference (perhaps paper)");
     expect_error("\"root\"", "\"lights\": {\"sun\": {\"kind\": \"directional\",\n\"direction\": [0, 0, 0]}},\n\"root\"",

@@ -140,6 +140,7 @@ TEST(SceneSchema, AcceptsTheLimitsOfEveryParameter) {
         else  // as the writer writes them: the shortest text that reads back the same
             for (const float v : {parameter.minimum, parameter.maximum})
                 values.push_back(value_of(parameter, Json::parse(fmt::format("{}", v))));
+        if (parameter.word) values.push_back(parameter.word);
         for (const Json& value : values) {
             object[parameter.key] = value;
             texts.push_back(scene.dump());
@@ -178,6 +179,7 @@ TEST(SceneSchema, RefusesWrongValuesOfEveryParameter) {
         const float width = parameter.maximum - parameter.minimum;
         add(value_of(parameter, parameter.minimum - 0.01f * width));
         add(value_of(parameter, parameter.maximum + 0.01f * width));
+        if (parameter.word) add(parameter.lowest());
         add(value_of(parameter, true));
         if (parameter.is_whole()) {
             add(value_of(parameter, 1.5));

@@ -45,6 +45,7 @@ std::string without_zeros(std::string number) {
 /// The number as text of at most `room` pixels, as far as that can be. While it is dragged its length stays the same.
 std::string shown_number(const Parameter& parameter, float value, bool dragged, std::string_view unit, float room) {
     const std::string suffix = fmt::format("{}{}", unit.empty() || unit[0] == '\xc2' ? "" : " ", unit);
+    if (parameter.is_word(value)) return parameter.word;
     std::string text;
     const auto fits = [&](std::string number) {
         text = (dragged ? number : without_zeros(std::move(number))) + suffix;
@@ -70,10 +71,12 @@ double value_at(const SliderRange& range, double position) {
 }
 
 /// Typing is over: true when it came to another number.
-bool finish_typing(NumberEntry& entry, float& value, std::string_view unit) {
+bool finish_typing(NumberEntry& entry, const Parameter& parameter, float& value, std::string_view unit) {
     entry.typed = 0;
-    if (std::string_view(entry.text) == entry.before) return false;
-    const std::optional<float> number = typed_number(entry.text, unit);
+    const std::string_view text = entry.text;
+    if (text == entry.before) return false;
+    const std::optional<float> number =
+        parameter.word && text == parameter.word ? parameter.lowest() : typed_number(text, unit);
     if (!number || *number == value) return false;
     value = *number;
     return true;
@@ -86,7 +89,7 @@ bool follow_mouse(NumberEntry& entry, const ImRect& box, const Parameter& parame
     const ImGuiIO& io = ImGui::GetIO();
     if (!range) {
         entry.exact += io.MouseDelta.x * drag_speed(parameter, entry.exact);
-        entry.exact = std::clamp<double>(entry.exact, parameter.minimum, parameter.maximum);
+        entry.exact = std::clamp<double>(entry.exact, parameter.lowest(), parameter.maximum);
     } else {
         if (io.KeyShift)
             entry.along += 0.1f * io.MouseDelta.x / box.GetWidth();
@@ -154,7 +157,7 @@ bool number_field(Ui& ui, const char* label, const Parameter& parameter, float& 
     if (begins) {
         entry.typed = id;
         entry.clicked = 0;
-        entry.before = fmt::format("{}", value);
+        entry.before = parameter.is_word(value) ? parameter.word : fmt::format("{}", value);
         const std::size_t length = entry.before.copy(entry.text, sizeof entry.text - 1);
         entry.text[length] = 0;
     }
@@ -164,7 +167,7 @@ bool number_field(Ui& ui, const char* label, const Parameter& parameter, float& 
         if (ImGui::TempInputIsActive(id)) return false;
     }
     // Enter, Tab, Escape, or a click elsewhere, which something else may have seen first.
-    if (entry.typed == id) return finish_typing(entry, value, unit);
+    if (entry.typed == id) return finish_typing(entry, parameter, value, unit);
 
     if (pressed) {
         ImGui::SetActiveID(id, window);
@@ -208,7 +211,7 @@ bool number_field(Ui& ui, const char* label, const Parameter& parameter, float& 
         shown_number(parameter, value, active && !range, unit, box.GetWidth() - ui.theme.px(range ? 4.0f : 9.0f));
     ImGui::RenderTextClipped({box.Min.x + ui.theme.px(range ? 0.0f : 3.0f), box.Min.y}, box.Max, text.c_str(), nullptr,
                              nullptr, {0.5f, 0.5f}, &box);
-    if (full && typed_number(text, unit) != value) *full = fmt::format("{}", value);
+    if (full && !parameter.is_word(value) && typed_number(text, unit) != value) *full = fmt::format("{}", value);
     return changed;
 }
 

@@ -14,7 +14,7 @@ SliderRange slider_range(const Parameter& parameter) {
     using namespace std::string_view_literals;
     if (parameter.key == "ao_radius"sv) return {0.01f, 10.0f, true};
     if (parameter.key == "exposure"sv) return {-6.0f, 6.0f};
-    return {parameter.minimum, parameter.maximum};
+    return {parameter.lowest(), parameter.maximum};
 }
 
 void view_row(Ui& ui) {
@@ -35,9 +35,21 @@ void view_row(Ui& ui) {
     ImGui::EndCombo();
 }
 
+/// What the bounces are and what one more would add.
+void bounces_row(Ui& ui, const Statistics& statistics) {
+    const std::string text = bounces_text(statistics);
+    row_label(ui, "", false);
+    ImGui::PushFont(ui.theme.small_font);
+    ImGui::TextDisabled("%s", text.c_str());
+    ImGui::PopFont();
+    ui.report.item("settings", "bounces/next");
+    tooltip(ui, "What one more bounce would add to the mean of indirect light, measured on 4,096 paths");
+}
+
 }  // namespace
 
-Edits settings_panel(Ui& ui, const Scene& scene) {
+Edits settings_panel(Ui& ui, const Scene& scene, const Statistics& statistics) {
+    using namespace std::string_view_literals;
     Edits edits;
     panel_title(ui, "Render");
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.theme.px(10.0f), ui.theme.px(8.0f)});
@@ -48,6 +60,7 @@ Edits settings_panel(Ui& ui, const Scene& scene) {
         const SliderRange range = slider_range(parameter);
         if (const auto changed = value_row(ui, "settings", parameter, value(scene, settings, parameter.key), &range))
             edits.push_back(SetValue{settings, parameter.key, *changed});
+        if (parameter.key == "bounces"sv) bounces_row(ui, statistics);
     }
     ImGui::EndChild();
     ImGui::PopStyleVar();

@@ -149,9 +149,12 @@ vec2 unit_square(uvec2 v) {
     return vec2(v >> 8u) * (1.0 / 16777216.0);
 }
 
-// Sample `index` of a pixel: Roberts' R2 sequence (2018) in integers, moved by a hash of pixel, stream and seed.
-vec2 sequence_sample(uint pixel, uint index, uint stream) {
-    return unit_square(hash(uvec3(pixel, stream, seed)).xy + index * uvec2(3242174889u, 2447445414u));
+// Sample `index` of a pixel: Roberts' R2 sequence (2018), moved from pixel to pixel by the numbers of his R4, which share no
+// ratio with those, and as a whole by a hash of stream and seed. So the pixels that a filter averages share out the
+// hemisphere among them. Any one pixel is uniform over the seeds.
+vec2 sequence_sample(uvec2 pixel, uint index, uint stream) {
+    return unit_square(hash(uvec3(stream, seed, 0u)).xy + index * uvec2(3242174889u, 2447445414u) +
+                       pixel.x * uvec2(3679390609u, 3152041523u) + pixel.y * uvec2(2700274805u, 2313257605u));
 }
 
 // The same without stratification: for further bounces, where one sequence for all dimensions would be biased.
@@ -177,18 +180,23 @@ vec3 leave(Surface s) {
     return s.position + s.normal * (2.0 * max(s.epsilon, max(1e-4, spacing)));
 }
 
-// Where the camera's surface of a pixel lies, from its distance along camera_forward.
-vec3 position_at(ivec2 pixel, float depth) {
+// To the centre of a pixel, along camera_forward 1: where the camera's surface lies for each metre of depth.
+vec3 ray_at(ivec2 pixel) {
     vec2 q = (vec2(pixel) + 0.5) / vec2(image_size) * 2.0 - 1.0;
-    return camera_position + depth * (camera_forward + q.x * camera_right - q.y * camera_up);
+    return camera_forward + q.x * camera_right - q.y * camera_up;
+}
+
+// Of the second pixel's surface from the tangent plane of the first's, metres. A guide holds normal and depth; 0 for no surface.
+float tangent_distance(vec4 guide, ivec2 pixel, vec4 other_guide, ivec2 other_pixel) {
+    return dot(guide.xyz, other_guide.w * ray_at(other_pixel) - guide.w * ray_at(pixel));
 }
 
 // How far two pixels show the same surface, 0..1: the cosine of their normals to the 64th power times a Gaussian of the
-// second's distance from the first's tangent plane, two pixels wide. A guide holds normal and depth; 0 for no surface.
-float same_surface(vec4 guide, vec3 position, vec4 other_guide, vec3 other_position) {
+// tangent distance, two pixels wide.
+float same_surface(vec4 guide, vec4 other_guide, float tangent_distance) {
     float cosine = clamp(dot(guide.xyz, other_guide.xyz), 0.0, 1.0);
     float c4 = cosine * cosine * cosine * cosine;
     float c16 = c4 * c4 * c4 * c4;
-    float plane = dot(guide.xyz, other_position - position) / max(2.0 * pixel_angle * guide.w, 1e-20);
+    float plane = tangent_distance / max(2.0 * pixel_angle * guide.w, 1e-20);
     return guide.w > 0.0 && other_guide.w > 0.0 ? c16 * c16 * c16 * c16 * exp(-plane * plane) : 0.0;
 }

@@ -4,6 +4,7 @@ layout(local_size_x = 64) in;
 
 uniform uint ray_count;
 uniform uint first_surface;
+uniform uint spread;        // not 0: the surfaces are taken evenly from so many
 uniform uint first_pixel;
 uniform uint sample_index;  // counts on over frames
 uniform uint stream;
@@ -14,10 +15,13 @@ uniform float reach;
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= ray_count) return;
-    Surface s = surfaces[first_surface + i];
+    uint even, unused;
+    umulExtended(i * 2654435769u, spread, even, unused);  // multiples of the golden ratio, modulo 1
+    Surface s = surfaces[spread > 0u ? even : first_surface + i];
     bool any = s.material != no_surface;
     uint pixel = first_pixel + i;
-    vec2 u = stratified == 1 ? sequence_sample(pixel, sample_index, stream) : independent_sample(pixel, sample_index, stream);
+    uvec2 at = uvec2(pixel % uint(image_size.x), pixel / uint(image_size.x));
+    vec2 u = stratified == 1 ? sequence_sample(at, sample_index, stream) : independent_sample(pixel, sample_index, stream);
     vec3 direction = cosine_direction(s.normal, u);
     rays[i] = Ray(leave(s), any ? reach : 0.0, direction, 1e-3);
     if (start_path == 1) paths[i] = Path(vec3(1.0), no_hit, vec3(0.0), 0.0);

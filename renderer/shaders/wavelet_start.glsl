@@ -4,8 +4,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 
 layout(binding = 0, rgba32f) writeonly uniform image2D far_light;   // w: openness of the same rays
 layout(binding = 1, rgba32f) writeonly uniform image2D near_light;  // w: variance of the mean of near + far
-layout(binding = 2, r32f) writeonly uniform image2D noise_gain;
-layout(binding = 3, rgba32f) writeonly uniform image2D guide;       // normal; w: depth, 0 for no surface
+layout(binding = 2, rgba32f) writeonly uniform image2D guide;       // normal; w: depth, 0 for no surface
 
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
@@ -21,12 +20,11 @@ void main() {
     // of all samples, also of those from before the change.
     far = near.w > 0.0 ? far / near.w : vec4(mean, any_surface ? 1.0 : 0.0);
     near.rgb = mean - far.rgb;
-    float spread = max(square_sum[pixel] / max(whole.w, 1.0) - dot(mean, mean) / 3.0, 0.0);
-    vec2 q = (vec2(at) + 0.5) / vec2(image_size) * 2.0 - 1.0;
-    float slant = length(camera_forward + q.x * camera_right - q.y * camera_up);
+    // One sample does not tell its mean from chance: its square bounds the variance.
+    float known = whole.w > 1.0 ? dot(mean, mean) / 3.0 : 0.0;
+    float spread = max(square_sum[pixel] / max(whole.w, 1.0) - known, 0.0);
     vec3 normal = normalize(geometry.xyz + vec3(0.0, 1e-9, 0.0));
     imageStore(far_light, at, far);
     imageStore(near_light, at, vec4(near.rgb, spread / max(whole.w - 1.0, 1.0) * (1.0 + 4.0 / max(whole.w, 1.0))));
-    imageStore(noise_gain, at, vec4(1.0));
-    imageStore(guide, at, any_surface ? vec4(normal, direct_sum[pixel].w / geometry.w / slant) : vec4(0.0));
+    imageStore(guide, at, any_surface ? vec4(normal, direct_sum[pixel].w / geometry.w / length(ray_at(at))) : vec4(0.0));
 }
