@@ -50,6 +50,8 @@ struct HemisphereRays {
 };
 
 constexpr unsigned occlusion_stream = 100;  // apart from the bounces' streams 0..8
+constexpr unsigned roulette_stream = 200;   // and more, one for each bounce
+constexpr int roulette_after = 4;           // bounces: most of the light has been found, and what is left is dim
 
 }  // namespace
 
@@ -123,6 +125,13 @@ void FarLightPass::run(const Work& work, unsigned sample_index, int bounces, flo
     for (int bounce = 0; bounce < bounces; ++bounce) {
         // The first rays leave the camera's surfaces, later ones the paths' vertices, which every bounce overwrites.
         const bool first = bounce == 0;
+        if (bounce >= roulette_after) {
+            roulette_.set("ray_count", static_cast<unsigned>(work.count));
+            roulette_.set("first_pixel", static_cast<unsigned>(work.first_pixel));
+            roulette_.set("sample_index", sample_index);
+            roulette_.set("stream", roulette_stream + static_cast<unsigned>(bounce));
+            roulette_.run(work.count);
+        }
         HemisphereRays{
             first ? work.first_pixel : 0, sample_index, static_cast<unsigned>(bounce), first, first, far_reach}
             .run(hemisphere_, work);
