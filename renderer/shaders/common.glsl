@@ -125,11 +125,13 @@ Material material_of(uint code) {
                     mix(m.emission, other.emission, share), mix(m.exponent, other.exponent, share));
 }
 
-// Irradiance that a light brings to a surface along its shadow ray, when that met nothing; 0 when it did or there was none.
-vec3 irradiance_of(Light light, Ray ray, Hit hit, vec3 normal) {
+// Irradiance that a light brings to a surface, when its shadow ray met nothing; 0 when it did or there was none. Distance
+// and angle are the surface's, not those of the ray, which starts a little above it.
+vec3 irradiance_of(Light light, Ray ray, Hit hit, Surface s) {
     if (ray.reach <= 0.0 || hit.distance >= 0.0) return vec3(0.0);
-    float falloff = light.directional != 0u ? 1.0 : 1.0 / max(ray.reach * ray.reach, 1e-8);
-    return light.intensity * (falloff * dot(normal, ray.direction));
+    vec3 to_light = light.directional != 0u ? -light.position : light.position - s.position;
+    float square = max(dot(to_light, to_light), 1e-8);  // of a directional light 1
+    return light.intensity * (max(dot(s.normal, to_light), 0.0) * inversesqrt(square) / square);
 }
 
 // pcg3d of Jarzynski and Olano, "Hash Functions for GPU Rendering", 2020.
