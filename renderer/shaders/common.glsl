@@ -173,10 +173,11 @@ vec3 cosine_direction(vec3 n, vec2 u) {
     return normalize(tangent * (r * cos(phi)) + bitangent * (r * sin(phi)) + n * sqrt(max(1.0 - u.x, 0.0)));
 }
 
-// Where rays leave a surface: clear of it by more than it may be off and than float spacing.
-vec3 leave(Surface s) {
+// Where rays leave a surface: clear of it by more than float spacing and by a share of what it may be off, which is above
+// the surface, never below. A small share is right where shadows touch what casts them; a large one saves steps.
+vec3 leave(Surface s, float share) {
     float spacing = max(abs(s.position.x), max(abs(s.position.y), abs(s.position.z))) * 1e-6;
-    return s.position + s.normal * (2.0 * max(s.epsilon, max(1e-4, spacing)));
+    return s.position + s.normal * (2.0 * max(share * s.epsilon, max(1e-4, spacing)));
 }
 
 // Where the camera's surface of a pixel lies, from its distance along camera_forward.
