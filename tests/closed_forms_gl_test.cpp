@@ -149,6 +149,22 @@ TEST_F(ClosedForms, DiffuseSphereAroundAPointLight) {
     expect(mean(View::result, 1), 1.0 - std::pow(0.5, 9), "result");
 }
 
+/// In the mirror direction of a directional light Phong's cosine is 1.
+TEST_F(ClosedForms, PhongHighlightInTheMirrorDirection) {
+    add(plane());
+    apply(scene_, AddLight{Light{}});
+    scene_.lights[0].kind = LightKind::directional;
+    scene_.lights[0].direction = {-1.0f, -1.0f, 0.0f};
+    scene_.lights[0].intensity = glm::vec3(2.0f);
+    look_at_patch({0.0f, 0.0f, 0.0f}, {-1.0f, 1.0f, 0.0f});
+    for (const float exponent : {1.0f, 32.0f}) {
+        scene_.materials[0].specular = 0.3f;
+        scene_.materials[0].exponent = exponent;
+        const double irradiance = 2.0 * std::sqrt(0.5);
+        expect(mean(View::direct, 1), irradiance * (0.5 / pi + 0.3 * (exponent + 2.0) / (2.0 * pi)));
+    }
+}
+
 /// Half space minus a sphere of radius 1 whose centre lies h deep.
 TEST_F(ClosedForms, SphericalPitUnderASky) {
     const double h = 0.5, f = 0.5 * (1.0 - h);

@@ -73,7 +73,7 @@ protected:
             squares += (a - c) * (b - c);
         }
         EXPECT_GT(n, 3 * size * size / 2);
-        EXPECT_NEAR(sum / cycles_sum, 1.0, 0.01);
+        EXPECT_NEAR(sum / cycles_sum, 1.0, 0.005);
         EXPECT_LT(std::sqrt(std::max(squares / n, 0.0)) / (cycles_sum / n), 0.02);
     }
     std::optional<Renderer> renderer_;
