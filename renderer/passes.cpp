@@ -51,7 +51,9 @@ struct HemisphereRays {
     }
 };
 
-constexpr unsigned occlusion_stream = 100, measure_stream = 200;  // apart from the bounces' streams 0..8
+// Streams of random numbers, apart from the bounces' own 0..8; from roulette_stream on one for each bounce.
+constexpr unsigned occlusion_stream = 100, measure_stream = 200, roulette_stream = 300;
+constexpr int roulette_after = 4;  // bounces: most of the light has been found, and what is left is dim
 
 /// Of the wavelet: its openness is the one in front of the mean far light. Narrower ones bring noise, wider ones blur
 /// contact.
@@ -129,6 +131,13 @@ void FarLightPass::run(const Work& work, unsigned sample_index, int bounces, flo
     for (int bounce = 0; bounce < bounces; ++bounce) {
         // The first rays leave the camera's surfaces, later ones the paths' vertices, which every bounce overwrites.
         const bool first = bounce == 0;
+        if (bounce >= roulette_after) {
+            roulette_.set("ray_count", static_cast<unsigned>(work.count));
+            roulette_.set("first_pixel", static_cast<unsigned>(work.first_pixel));
+            roulette_.set("sample_index", sample_index);
+            roulette_.set("stream", roulette_stream + static_cast<unsigned>(bounce));
+            roulette_.run(work.count);
+        }
         HemisphereRays{
             first ? work.first_pixel : 0, sample_index, static_cast<unsigned>(bounce), first, first, far_reach}
             .run(hemisphere_, work);

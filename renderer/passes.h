@@ -76,8 +76,8 @@ private:
     gl::Program rays_ = load_program("light_rays.glsl"), shade_ = load_program("direct.glsl");
 };
 
-/// One hemisphere ray per pixel, followed over the bounces, each vertex lit by every light; accumulated whole and split
-/// by the near weight of `near_radius`, metres.
+/// One hemisphere ray per pixel, followed over the bounces (after the fourth by Russian roulette), each vertex lit by
+/// every light; accumulated whole and split by the near weight of `near_radius`, metres.
 class FarLightPass {
 public:
     void run(const Work& work, unsigned sample_index, int bounces, float near_radius) const;
@@ -90,7 +90,7 @@ private:
     void follow(const Work& work, bool first) const;
     gl::Program hemisphere_ = load_program("hemisphere.glsl"), bounce_ = load_program("bounce.glsl"),
                 light_rays_ = load_program("light_rays.glsl"), light_ = load_program("bounce_light.glsl"),
-                gather_ = load_program("gather.glsl");
+                roulette_ = load_program("roulette.glsl"), gather_ = load_program("gather.glsl");
 };
 
 /// One short ray per pixel within the AO radius.

@@ -222,52 +222,6 @@ TEST_F(Render, RecordsHaveTheLayoutOfTheShaders) {
     EXPECT_EQ(property("hits[0].distance", GL_TOP_LEVEL_ARRAY_STRIDE), hit_bytes);
 }
 
-/// Inside a closed sphere that emits 1 and reflects half: after k bounces the radiance is 1 + 1/2 + ... + 1/2^k
-/// everywhere.
-TEST_F(Render, FurnaceRadianceIsTheGeometricSeries) {
-    Scene scene;
-    Node shell = make_node(NodeKind::shell);
-    const Id id = apply(scene, InsertNode{scene.root.id, -1, shell});
-    Node ball = make_node(NodeKind::sphere);
-    ball.values[0].x = 2.0f;
-    apply(scene, InsertNode{id, -1, ball});
-    scene.materials[0].albedo = glm::vec3(0.5f);
-    scene.materials[0].emission = glm::vec3(1.0f);
-    scene.camera.position = {0.3f, 0.2f, 0.5f};
-    scene.camera.target = {0.0f, 0.0f, -1.0f};
-    scene.settings.method = Method::reference;
-    for (int bounces = 1; bounces <= 4; ++bounces) {
-        scene.settings.bounces = bounces;
-        const double expected = 2.0 - std::pow(0.5, bounces);
-        for (const float v : render(scene, 1).pixels) ASSERT_NEAR(v, expected, 1e-4);
-    }
-}
-
-/// On a floor at distance a from a wall, the share of cosine-weighted directions that meet the wall within radius r is
-/// [acos c - c sqrt(1 - c²)] / pi with c = a / r.
-TEST_F(Render, AmbientOcclusionBesideAWallIsTheClosedForm) {
-    Scene scene;
-    apply(scene, InsertNode{scene.root.id, -1, make_node(NodeKind::plane)});
-    Node wall = make_node(NodeKind::plane);
-    wall.transform.rotate = {0.0f, 0.0f, -90.0f};  // the half space x <= 0
-    apply(scene, InsertNode{scene.root.id, -1, wall});
-    scene.settings.method = Method::paper;  // farfield weighs what it meets by distance
-    scene.settings.samples = 64;
-    scene.camera.field_of_view = 1.0f;
-    for (const float c : {0.2f, 0.5f, 0.8f}) {
-        const float a = c * scene.settings.ao_radius;
-        scene.camera.target = {a, 0.0f, 0.0f};
-        scene.camera.position = {a, 0.2f, 0.01f};  // a picture of 4 mm
-        FrameOptions options;
-        options.size = {16, 16};
-        const Image image = render(scene, 16, options, View::occlusion);
-        double mean = 0.0;
-        for (const float v : image.pixels) mean += v / static_cast<double>(image.pixels.size());
-        const double expected = 1.0 - (std::acos(c) - c * std::sqrt(1.0 - c * c)) / 3.14159265358979;
-        EXPECT_NEAR(mean, expected, 0.005) << "c = " << c;
-    }
-}
-
 /// A Lambert plane under a point light: radiance albedo / pi x I cos / d². A directional light: albedo / pi x E cos.
 TEST_F(Render, DirectLightIsLambertsLaw) {
     Scene scene;

@@ -7,6 +7,6 @@ uniform uint light_index;
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= ray_count) return;
-    vec3 irradiance = irradiance_of(lights[light_index], rays[i], hits[i], surfaces[i].normal);
+    vec3 irradiance = irradiance_of(lights[light_index], rays[i], hits[i], surfaces[i]);
     paths[i].radiance += paths[i].throughput * irradiance / PI;
 }

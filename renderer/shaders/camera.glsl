@@ -12,6 +12,6 @@ void main() {
     vec2 at = vec2(pixel % uint(image_size.x), pixel / uint(image_size.x)) + 0.5 + vec2(jitter_x, jitter_y);
     vec2 q = at / vec2(image_size) * 2.0 - 1.0;
     vec3 direction = normalize(camera_forward + q.x * camera_right - q.y * camera_up);
-    // A tenth of a pixel: finer hits cost steps and cannot be seen.
-    rays[i] = Ray(camera_position, reach, direction, 0.1 * pixel_angle);
+    // A fiftieth of a pixel: with a tenth a bright lamp grew by as much, and contact shadows began some millimetres too late.
+    rays[i] = Ray(camera_position, reach, direction, 0.02 * pixel_angle);
 }

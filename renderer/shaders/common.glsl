@@ -125,11 +125,13 @@ Material material_of(uint code) {
                     mix(m.emission, other.emission, share), mix(m.exponent, other.exponent, share));
 }
 
-// Irradiance that a light brings to a surface along its shadow ray, when that met nothing; 0 when it did or there was none.
-vec3 irradiance_of(Light light, Ray ray, Hit hit, vec3 normal) {
+// Irradiance that a light brings to a surface, when its shadow ray met nothing; 0 when it did or there was none. Distance
+// and angle are the surface's, not those of the ray, which starts a little above it.
+vec3 irradiance_of(Light light, Ray ray, Hit hit, Surface s) {
     if (ray.reach <= 0.0 || hit.distance >= 0.0) return vec3(0.0);
-    float falloff = light.directional != 0u ? 1.0 : 1.0 / max(ray.reach * ray.reach, 1e-8);
-    return light.intensity * (falloff * dot(normal, ray.direction));
+    vec3 to_light = light.directional != 0u ? -light.position : light.position - s.position;
+    float square = max(dot(to_light, to_light), 1e-8);  // of a directional light 1
+    return light.intensity * (max(dot(s.normal, to_light), 0.0) * inversesqrt(square) / square);
 }
 
 // pcg3d of Jarzynski and Olano, "Hash Functions for GPU Rendering", 2020.
@@ -174,10 +176,11 @@ vec3 cosine_direction(vec3 n, vec2 u) {
     return normalize(tangent * (r * cos(phi)) + bitangent * (r * sin(phi)) + n * sqrt(max(1.0 - u.x, 0.0)));
 }
 
-// Where rays leave a surface: clear of it by more than it may be off and than float spacing.
-vec3 leave(Surface s) {
+// Where rays leave a surface: clear of it by more than float spacing and by a share of what it may be off, which is above
+// the surface, never below. A small share is right where shadows touch what casts them; a large one saves steps.
+vec3 leave(Surface s, float share) {
     float spacing = max(abs(s.position.x), max(abs(s.position.y), abs(s.position.z))) * 1e-6;
-    return s.position + s.normal * (2.0 * max(s.epsilon, max(1e-4, spacing)));
+    return s.position + s.normal * (2.0 * max(share * s.epsilon, max(1e-4, spacing)));
 }
 
 // To the centre of a pixel, along camera_forward 1: where the camera's surface lies for each metre of depth.

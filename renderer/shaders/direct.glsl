@@ -13,7 +13,7 @@ void main() {
     if (s.material == no_surface) return;
     Ray ray = rays[i];
     Material m = material_of(s.material);
-    vec3 irradiance = irradiance_of(lights[light_index], ray, hits[i], s.normal);
+    vec3 irradiance = irradiance_of(lights[light_index], ray, hits[i], s);
     vec3 view = normalize(camera_position - s.position);
     float highlight = max(dot(reflect(-ray.direction, s.normal), view), 0.0);
     float lobe = m.specular * (m.exponent + 2.0) / (2.0 * PI) * pow(max(highlight, 1e-6), m.exponent);

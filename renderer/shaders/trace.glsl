@@ -20,7 +20,7 @@ uniform vec3 scene_high;
 const float least_slope = flat_field ? 0.1 : 1.0;
 const int step_limit = flat_field ? 512 : 256;
 const float beta = 0.5;
-const float near_enough = 30.0;  // epsilons: three pixels of a camera ray
+const float near_enough = 2e-3;  // radians: one to three pixels of a camera ray
 const float smallest_epsilon = 1e-5;
 
 void main() {
@@ -65,7 +65,7 @@ void main() {
     bool exhausted = steps >= step_limit && !found && t < reach;
     // Out of steps: a ray that grazes a surface has met it, any other has met nothing. Where it stands now decides; the
     // nearest miss of the whole way would draw fringes around what a ray to the horizon passes.
-    found = found || (exhausted && radius < near_enough * epsilon);
+    found = found || (exhausted && radius < near_enough * t);
     if (found) t += max(radius, 0.0);
     found = found && t < ray.reach;
 
