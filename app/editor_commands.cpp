@@ -65,8 +65,7 @@ constexpr std::pair<const char*, const char*> mouse[] = {
 
 bool is_on(const Ui& ui, CommandId id) {
     return (id == CommandId::statistics && ui.show_statistics) || (id == CommandId::code && ui.show_code) ||
-           (id == CommandId::measure && ui.show_measure) ||
-           (id == CommandId::shortcuts && ui.show_shortcuts);
+           (id == CommandId::measure && ui.show_measure) || (id == CommandId::shortcuts && ui.show_shortcuts);
 }
 
 void view_entries(Ui& ui) {
