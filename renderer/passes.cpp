@@ -17,12 +17,17 @@ glm::ivec2 level_size(glm::ivec2 size, int level) {
     return glm::max(glm::ivec2(size.x >> level, size.y >> level), glm::ivec2(1));
 }
 
-/// Shadow rays from `count` of the bound surfaces to light `light`, traced.
-void trace_shadow_rays(const gl::Program& rays, const Work& work, std::size_t first_surface, int light) {
+/// See leave in common.glsl. What the camera sees wants shadows that touch what casts them. What light is gathered from
+/// does not: grazing rays that start nearer took 12 % of the time of the Cornell room.
+constexpr float start_of_seen_shadows = 0.2f, start_of_other_shadows = 1.0f;
+
+/// Shadow rays from the bound surfaces to light `light`, traced.
+void trace_shadow_rays(const gl::Program& rays, const Work& work, std::size_t first_surface, int light, float start) {
     rays.set("ray_count", static_cast<unsigned>(work.count));
     rays.set("first_surface", static_cast<unsigned>(first_surface));
     rays.set("light_index", static_cast<unsigned>(light));
     rays.set("reach", far_reach);
+    rays.set("start", start);
     rays.run(work.count);
     work.tracer.trace(work.count, false, work.counting);
 }
@@ -119,7 +124,7 @@ void CameraPass::run(const Work& work) const {
 
 void DirectPass::run(const Work& work) const {
     for (int light = 0; light < work.light_count; ++light) {
-        trace_shadow_rays(rays_, work, work.first_pixel, light);
+        trace_shadow_rays(rays_, work, work.first_pixel, light, start_of_seen_shadows);
         shade_.set("ray_count", static_cast<unsigned>(work.count));
         shade_.set("first_pixel", static_cast<unsigned>(work.first_pixel));
         shade_.set("light_index", static_cast<unsigned>(light));
@@ -157,7 +162,7 @@ void FarLightPass::follow(const Work& work, bool first) const {
     bounce_.set("first_bounce", first ? 1 : 0);
     bounce_.run(work.count);
     for (int light = 0; light < work.light_count; ++light) {
-        trace_shadow_rays(light_rays_, work, 0, light);
+        trace_shadow_rays(light_rays_, work, 0, light, start_of_other_shadows);
         light_.set("ray_count", static_cast<unsigned>(work.count));
         light_.set("light_index", static_cast<unsigned>(light));
         light_.run(work.count);
