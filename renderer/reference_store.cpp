@@ -1,9 +1,10 @@
 #include "renderer/reference_store.h"
 
+#include "sdf/user_folder.h"
+
 #include <fmt/format.h>
 
 #include <charconv>
-#include <cstdlib>
 
 namespace farfield {
 namespace {
@@ -35,14 +36,8 @@ Image whole_layer(const fs::path& file, const std::string& layer, glm::ivec2 siz
 }  // namespace
 
 fs::path ReferenceStore::user_folder() {
-    const auto folder = [](const char* variable) {
-        const char* text = std::getenv(variable);
-        const fs::path path = text ? text : "";
-        return path.is_absolute() ? path : fs::path();
-    };
-    fs::path base = folder("XDG_CACHE_HOME");
-    if (base.empty() && !(base = folder("HOME")).empty()) base /= ".cache";
-    return base.empty() ? base : base / "farfield" / "references";
+    const fs::path folder = farfield::user_folder("XDG_CACHE_HOME", ".cache");
+    return folder.empty() ? folder : folder / "references";
 }
 
 Reference ReferenceStore::load(const std::string& key, glm::ivec2 size, std::string& problem) const {

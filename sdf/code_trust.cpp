@@ -1,11 +1,11 @@
 #include "sdf/code_trust.h"
 
 #include "sdf/scene_file.h"
+#include "sdf/user_folder.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <string_view>
 
@@ -71,14 +71,8 @@ void forget_unknown(Node& node, const CodeTrust& trust) {
 CodeTrust::CodeTrust(fs::path file) : file_(std::move(file)) { read(); }
 
 fs::path CodeTrust::user_file() {
-    const auto folder = [](const char* variable) {
-        const char* text = std::getenv(variable);
-        const fs::path path = text ? text : "";
-        return path.is_absolute() ? path : fs::path();
-    };
-    fs::path base = folder("XDG_CONFIG_HOME");
-    if (base.empty() && !(base = folder("HOME")).empty()) base /= ".config";
-    return base.empty() ? base : base / "farfield" / "trusted";
+    const fs::path folder = user_folder("XDG_CONFIG_HOME", ".config");
+    return folder.empty() ? folder : folder / "trusted";
 }
 
 bool CodeTrust::knows(const CustomCode& code) const {
