@@ -26,18 +26,6 @@ std::string text(vec3 p) { return fmt::format("({:.4g}, {:.4g}, {:.4g})", p.x, p
 
 bool stopped(const AuditOptions& options) { return options.stop && *options.stop; }
 
-bool all_exact(const FieldNode& node) { return node.kind->role == Role::primitive && node.kind->exact; }
-
-/// Whether values may jump at the planes between the cells of a repetition in it.
-bool may_jump(const FieldTree& tree, const FieldNode& node) {
-    if (node.kind->role == Role::instance) return may_jump(tree, tree.definitions[node.definition]);
-    if (node.kind->role == Role::repeat &&
-        (node.cut || !std::all_of(node.children.begin(), node.children.end(), all_exact)))
-        return true;
-    return std::any_of(node.children.begin(), node.children.end(),
-                       [&](const FieldNode& child) { return may_jump(tree, child); });
-}
-
 /// Evaluations of nodes that one of this one takes.
 double cost(const FieldTree& tree, const FieldNode& node) {
     double below = 0.0;
@@ -51,7 +39,7 @@ std::string lower_case(std::string text) {
     return text;
 }
 
-std::string origin(const FieldTree& tree, const FieldNode& node) {
+std::string origin(const FieldNode& node) {
     const KindInfo& kind = *node.kind;
     switch (kind.role) {
         case Role::instance:
@@ -62,9 +50,7 @@ std::string origin(const FieldTree& tree, const FieldNode& node) {
         case Role::combine:
             return lower_case(kind.label) + " of 1-Lipschitz children";
         case Role::repeat:
-            return may_jump(tree, node)
-                       ? "the nearest of its copies; may jump where their cells meet, and is a bound there"
-                       : "the nearest of 1-Lipschitz copies";
+            return "the nearest of 1-Lipschitz copies";
         default:
             if (kind.explain) return kind.explain(node.values);
             return kind.domain ? "moves points no further apart: as 1-Lipschitz as its content"
@@ -132,7 +118,7 @@ private:
             entry.region = part->region;
             entry.world = world_bounds(tree_, node.id).value_or(entry.region);
             entry.stretch = part->stretch();
-            entry.origin = origin(tree_, *part);
+            entry.origin = origin(*part);
             by_numbers(*part);
             by_trying(*part, entry);
         } else {
@@ -192,14 +178,13 @@ private:
         if (search.not_finite())
             return find(node.id,
                         fmt::format("its value is not finite at {} of its parent's frame", text(*search.not_finite())));
-        const bool jumps = may_jump(tree_, node);
-        if (jumps ? search.unsafe().has_value() : entry.slope > most_relative) {
-            const SlopeSearch::Pair& pair = jumps ? *search.unsafe() : search.steepest();
+        if (entry.slope > most_relative) {
+            const SlopeSearch::Pair& pair = search.steepest();
             find(node.id, fmt::format("steeper than promised: {:.6g} at {} and {:.6g} at {}, in its parent's frame, a "
                                       "slope of {:.4g} where at most 1 is safe",
                                       pair.fa, text(pair.a), pair.fb, text(pair.b), pair.slope));
         }
-        if (!node.kind->stretch || jumps) return;
+        if (!node.kind->stretch) return;
 
         // Only where the content is: both images in what the children fill.
         Box content = node.children[0].extent.box;

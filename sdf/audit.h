@@ -1,9 +1,5 @@
 // What is known of each node of a scene before it is drawn, and what is found by trying: bounds, how steep the field is
 // promised to be and why, how steep it is at points taken at random, and what is odd about the node.
-//
-// Where the content of a repetition is a bound, values may jump at the planes between cells although they are bounds on
-// either side (see tests/random_tree_test.cpp). There, only what jumps past the surface is an error: two points of
-// different signs that are nearer to each other than either says.
 #pragma once
 
 #include "sdf/field_tree.h"

@@ -150,10 +150,10 @@ private:
             numbers.derived += ", " + (live ? read(parameter, at) : written(parameter, v));
             at += static_cast<std::size_t>(parameter.components());
         }
-        if (!n.kind->confined) return;
+        if (!n.kind->confined && !n.guarded) return;
         if (live)
             numbers.low = fmt::format("parameter3({})", at), numbers.high = fmt::format("parameter3({})", at + 3);
-        else if (n.region.is_bounded(0) || n.region.is_bounded(1) || n.region.is_bounded(2))
+        else if (n.guarded || n.region.is_bounded(0) || n.region.is_bounded(1) || n.region.is_bounded(2))
             numbers.low = literal(n.region.low), numbers.high = literal(n.region.high);
     }
 
@@ -366,7 +366,8 @@ private:
                           material_of = fmt::format("material_of_copy{}", copy_id);
         CodeLines body{names_};
         const Result copy = fold(n, num, "p", id, body, "    ");
-        if (n.cut) set(copy, fmt::format("{}({}, p{})", kind.cut, copy.distance, args), n, body, "    ");
+        const std::string region = fmt::format("{}, {}, {}", args, num.low, num.high);
+        if (n.guarded) set(copy, fmt::format("{}({}, p{})", kind.guard_copy, copy.distance, region), n, body, "    ");
         const bool materials = copy.varies;
         if (!with_material_ || materials) {
             functions_.add(with_material_ ? fmt::format("uint {}(vec3 p{}) {{", material_of,
@@ -385,6 +386,8 @@ private:
         out.add(fmt::format("{}float {} = {};", indent, d, literal(empty_distance)), n.id);
         if (!materials) {
             out.add(fmt::format("{} {} = min({}, {}({}));", loop, d, d, content, place), n.id);
+            if (n.guarded)
+                out.add(fmt::format("{}{} = {}({}, {}{});", indent, d, kind.guard_nearest, d, p, region), n.id);
             return {d, copy.material};
         }
         const std::string nearest = fmt::format("q{}", id), q = fmt::format("r{}", id),
@@ -396,6 +399,7 @@ private:
         out.add(fmt::format("{}    {} = {} < {} ? {} : {};", indent, nearest, e, d, q, nearest), n.id);
         out.add(fmt::format("{}    {} = min({}, {});", indent, d, d, e), n.id);
         out.add(indent + "}", n.id);
+        if (n.guarded) out.add(fmt::format("{}{} = {}({}, {}{});", indent, d, kind.guard_nearest, d, p, region), n.id);
         const std::string m = fmt::format("m{}", id);
         out.add(
             fmt::format("{}uint {} = {}({}{});", indent, m, material_of, nearest, in_definition_ ? ", inherited" : ""),

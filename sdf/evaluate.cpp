@@ -53,9 +53,10 @@ FieldEvaluator::Sample FieldEvaluator::evaluate(const FieldNode& node, glm::vec3
             for (int cell = 0; cell < kind.cells(node.values); ++cell) {
                 const glm::vec3 in_copy = kind.domain(q, node.values, cell);
                 Sample copy = fold(node, in_copy, inherited);
-                if (node.cut) copy.distance = kind.distance(copy.distance, in_copy, node.values);
+                if (node.guarded) copy.distance = kind.guarded_copy(copy.distance, in_copy, node.values, node.region);
                 if (copy.distance < s.distance) s = copy;
             }
+            if (node.guarded) s.distance = kind.guarded_nearest(s.distance, q, node.values, node.region);
             break;
         case Role::instance:
             s = evaluate(tree_.definitions[node.definition], q, s.material);

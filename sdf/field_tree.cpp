@@ -112,6 +112,8 @@ Box level_box(const FieldNode& node, float level, Definitions& definitions) {
 
 FieldNode prepare(const Node& node, std::uint32_t inherited, Definitions& definitions);
 
+bool is_exact(const FieldNode& node) { return node.kind->role == Role::primitive && node.kind->exact; }
+
 std::size_t definition_index(Id id, Definitions& definitions) {
     if (const auto found = definitions.indices.find(id); found != definitions.indices.end()) return found->second;
     FieldNode definition = prepare(*definitions.nodes.at(id), inherited_material, definitions);
@@ -140,7 +142,8 @@ FieldNode prepare(const Node& node, std::uint32_t inherited, Definitions& defini
         const Extent content = content_extent(part, 0.0f, definitions);
         part.values.resize(kind.parameters.size() + kind.derived.size());
         kind.derive(content, part.values, std::span(part.values).subspan(kind.parameters.size()));
-        part.cut = kind.cut && !kind.warnings(content, part.children.size(), part.values).empty();
+        part.guarded = kind.guard_copy && (!std::all_of(part.children.begin(), part.children.end(), is_exact) ||
+                                           !kind.warnings(content, part.children.size(), part.values).empty());
     }
 
     const Extent own = own_extent(part, 0.0f, definitions);

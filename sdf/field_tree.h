@@ -46,9 +46,9 @@ struct FieldNode {
     Box region;              ///< what the node fills in its own frame; stretched content is evaluated within it
     Extent extent;           ///< the same in the parent's frame
     std::vector<FieldNode> children;
-    bool cut = false;                     ///< repetitions: copies reach so far that they are cut off; see KindInfo::cut
-    std::size_t definition = 0;           ///< instances: index in FieldTree::definitions
-    std::vector<Parameter> parameters{};  ///< what the values belong to, but for the derived ones
+    bool guarded = false;                              ///< repetitions: see KindInfo::guard_copy
+    std::size_t definition = 0;                        ///< instances: index in FieldTree::definitions
+    std::vector<Parameter> parameters{};               ///< what the values belong to, but for the derived ones
     std::shared_ptr<const CustomCode> code = nullptr;  ///< of a custom node
 
     /// How much the node would shorten steps at worst: the Lipschitz constant of its field before it is made safe.

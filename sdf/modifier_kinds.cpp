@@ -82,14 +82,19 @@ glm::vec2 widths(const Box& content, float rate) {
 }
 
 glm::vec3 polar_repeat(glm::vec3 p, Values v, int cell) {
-    return shapes::polar_repeat(p, v[0].x, v[1].x, v[2].x, cell);
+    return shapes::polar_repeat(p, v[0].x, v[1].x, v[2].x, v[3].x, cell);
 }
 
 constexpr float full_turn = 6.2831853f;
 
-/// The angle about the y axis that a box takes up, and its middle.
-std::pair<float, float> sweep(const Box& box) {
-    float width = full_turn, centre = 0.0f;
+struct Sweep {
+    float width, centre;  ///< angle, and its middle
+    float inner;          ///< least distance from the axis
+};
+
+/// What a box takes up about the y axis.
+Sweep sweep(const Box& box) {
+    float width = full_turn, centre = 0.0f, inner = 0.0f;
     const bool holds_axis = box.low.x <= 0.0f && box.high.x >= 0.0f && box.low.z <= 0.0f && box.high.z >= 0.0f;
     if (!holds_axis && box.is_bounded(0) && box.is_bounded(2)) {
         const glm::vec3 middle = box.centre();
@@ -99,17 +104,20 @@ std::pair<float, float> sweep(const Box& box) {
             for (const float z : {box.low.z, box.high.z})
                 most = std::max(most, std::abs(std::remainder(std::atan2(z, x) - centre, full_turn)));
         width = 2.0f * most;
+        const float x = std::max({box.low.x, -box.high.x, 0.0f}), z = std::max({box.low.z, -box.high.z, 0.0f});
+        inner = glm::length(glm::vec2(x, z));
     }
-    return {width, centre};
+    return {width, centre, inner};
 }
 
 // As derive_repeat, with angles: the distance to a turned copy grows with the angle between it and p.
 void derive_polar_repeat(const Extent& content, Values v, std::span<glm::vec3> derived) {
     const float count = v[0].x, sector = full_turn / count;
-    const auto [width, centre] = sweep(content.box);
+    const auto [width, centre, inner] = sweep(content.box);
     const bool one = content.symmetric[2] && centre == 0.0f && width <= sector;
     derived[0].x = one ? 1.0f : std::min({1.0f + std::ceil(width / sector), most_cells, count});
     derived[1].x = centre;
+    derived[2].x = inner;
 }
 
 std::string overlap_warning(float copies) {
@@ -119,7 +127,7 @@ std::string overlap_warning(float copies) {
         copies, most_cells);
 }
 
-/// There are some exactly where copies are cut (FieldNode::cut).
+/// There are some exactly where copies are cut off.
 Warnings repeat_warnings(const Extent& content, std::size_t, Values v) {
     Warnings found;
     for (int axis = 0; axis < 3; ++axis) {
@@ -136,7 +144,7 @@ Warnings repeat_warnings(const Extent& content, std::size_t, Values v) {
 
 Warnings polar_repeat_warnings(const Extent& content, std::size_t, Values v) {
     const float count = v[0].x,
-                wanted = std::min(1.0f + std::ceil(sweep(content.box).first * count / full_turn), count);
+                wanted = std::min(1.0f + std::ceil(sweep(content.box).width * count / full_turn), count);
     return wanted <= most_cells ? Warnings{} : Warnings{overlap_warning(wanted)};
 }
 
@@ -232,22 +240,35 @@ void add_modifiers(std::vector<KindInfo>& t) {
     repeat_kind.derive = derive_repeat;
     repeat_kind.warnings = repeat_warnings;
     repeat_kind.secondary = "repeat_cells";
-    repeat_kind.cut = "repeat_cut";
-    repeat_kind.distance = safe_distance<shapes::repeat_cut>;
+    repeat_kind.guard_copy = "repeat_copy";
+    repeat_kind.guarded_copy = [](float d, glm::vec3 p, Values v, const Box& region) {
+        return shapes::repeat_copy(d, p, v[0], v[1], v[2], v[3], region.low, region.high);
+    };
+    repeat_kind.guard_nearest = "repeat_distance";
+    repeat_kind.guarded_nearest = [](float d, glm::vec3 p, Values v, const Box& region) {
+        return shapes::repeat_distance(d, p, v[0], v[1], v[2], v[3], region.low, region.high);
+    };
     t.push_back(repeat_kind);
 
     KindInfo polar =
         make_modifier(K::polar_repeat, "polar_repeat", "Polar repeat", "Copies of the content turned about the y axis",
                       Role::repeat, true, {whole("count", "Number of copies in a full turn", 6.0f)}, "polar_repeat");
     polar.domain = polar_repeat;
-    polar.cells = [](Values v) { return shapes::polar_repeat_cells(v[0].x, v[1].x, v[2].x); };
+    polar.cells = [](Values v) { return shapes::polar_repeat_cells(v[0].x, v[1].x, v[2].x, v[3].x); };
     polar.secondary = "polar_repeat_cells";
-    polar.cut = "polar_repeat_cut";
-    polar.distance = safe_distance<shapes::polar_repeat_cut>;
+    polar.guard_copy = "polar_repeat_copy";
+    polar.guarded_copy = [](float d, glm::vec3 p, Values v, const Box& region) {
+        return shapes::polar_repeat_copy(d, p, v[0].x, v[1].x, v[2].x, v[3].x, region.low, region.high);
+    };
+    polar.guard_nearest = "polar_repeat_distance";
+    polar.guarded_nearest = [](float d, glm::vec3 p, Values v, const Box& region) {
+        return shapes::polar_repeat_distance(d, p, v[0].x, v[1].x, v[2].x, v[3].x, region.low, region.high);
+    };
     polar.image = [](const Extent& content, Values) { return around_y(content); };
     polar.function_takes_derived = true;
     polar.derived = {{"cells", "Copies that can be nearest", number},
-                     {"centre", "Angle at which one copy has its middle", number}};
+                     {"centre", "Angle at which one copy has its middle", number},
+                     {"inner", "How far the content is from the axis", number, metres}};
     polar.derive = derive_polar_repeat;
     polar.warnings = polar_repeat_warnings;
     t.push_back(polar);

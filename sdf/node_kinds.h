@@ -133,9 +133,10 @@ struct KindInfo {
     /// domain: float f(d, p, parameters..., derived...), a safe distance; repeat: int f(parameters..., derived...), the
     /// number of cells.
     const char* secondary;
-    /// repeat: float f(d, p, parameters..., derived...), what counts of one copy where there are more than its cells
-    /// see (FieldNode::cut).
-    const char* cut;
+    /// repeat: float f(d, p, parameters..., derived..., low, high) of one copy and of the nearest, with the corners of
+    /// the node's region; where the content's distance is no exact one or it is cut off (FieldNode::guarded).
+    const char* guard_copy;
+    const char* guard_nearest;
     /// combine: GLSL of the distances {0} and {1} to use when all parameters are known to be 0, for the distance and
     /// for whether the second one's material shows; or null: the functions serve then too.
     const char* when_zero;
@@ -147,6 +148,8 @@ struct KindInfo {
     glm::vec3 (*domain)(glm::vec3 p, Values v, int cell);
     float (*distance)(float d, glm::vec3 p, Values v);
     int (*cells)(Values v);
+    float (*guarded_copy)(float d, glm::vec3 p, Values v, const Box& region);
+    float (*guarded_nearest)(float d, glm::vec3 p, Values v, const Box& region);
 
     // What a node fills, conservatively, in its own frame: where its field is at most a level r >= 0.
     /// primitive: at most 0; a higher level lies within that box grown by r.

@@ -200,17 +200,21 @@ vec3 elongate(vec3 p, vec3 half_size) {
     return p - clamp(p, -half_size, half_size);
 }
 
-// One axis of repeat: the coordinate in the frame of one copy of `cells` neighbours, those with their middles nearest to p.
-// Copies stand at multiples of spacing; a positive count limits them and centres the row. No spacing or one copy: as is.
-float repeat_axis(float p, float spacing, float count, float cells, float centre, float cell) {
-    if (spacing <= 0.0f || count == 1.0f) return p;
+// Along one axis of repeat the index of the first of `cells` neighbours, those with their middles nearest to p. Copies stand
+// at multiples of spacing; a positive count limits them and centres the row.
+float first_copy(float p, float spacing, float count, float cells, float centre) {
     float last = 0.5f * (count - 1.0f);
     float offset = count > 0.0f ? last - floor(last) : 0.0f;
     float along = (p - centre) / spacing;
     float first = floor(along - offset + 0.5f) + offset;
     first -= floor(0.5f * (along >= first ? cells - 1.0f : cells));
-    if (count > 0.0f) first = clamp(first, -last, last - (cells - 1.0f));
-    return p - (first + cell) * spacing;
+    return count > 0.0f ? clamp(first, -last, last - (cells - 1.0f)) : first;
+}
+
+// The coordinate in the frame of one of those copies. No spacing or one copy: as is.
+float repeat_axis(float p, float spacing, float count, float cells, float centre, float cell) {
+    if (spacing <= 0.0f || count == 1.0f) return p;
+    return p - (first_copy(p, spacing, count, cells, centre) + cell) * spacing;
 }
 
 // How many copies can hold the nearest point; cells of them along each axis.
@@ -227,43 +231,87 @@ vec3 repeat(vec3 p, vec3 spacing, vec3 count, vec3 cells, vec3 centre, int cell)
                 repeat_axis(p.z, spacing.z, count.z, cells.z, centre.z, float(cell / (x * y))));
 }
 
-float beyond_cells(float p, float spacing, float count, float cells) {
+// Which copies are nearest is certain of exact distances alone. Otherwise the distance d at p of one copy is raised to that of
+// a box around it, as wide as those cells see; what reaches further is cut off. And the copies that are not looked at count as
+// the nearest of their boxes. So the values on both sides of where others become the nearest are the same. low and high: what
+// all copies fill.
+float outside_copy(float p, float spacing, float count, float cells, float low, float high) {
+    if (spacing <= 0.0f || count == 1.0f) return max(low - p, p - high);
     return cells > 1.0f && cells != count ? abs(p) - 0.5f * (cells - 1.0f) * spacing : -1e9f;
 }
 
-// The distance d at p of one copy without what reaches further than those cells see.
-float repeat_cut(float d, vec3 p, vec3 spacing, vec3 count, vec3 cells, vec3 centre) {
-    float x = beyond_cells(p.x - centre.x, spacing.x, count.x, cells.x);
-    float y = beyond_cells(p.y - centre.y, spacing.y, count.y, cells.y);
-    float z = beyond_cells(p.z - centre.z, spacing.z, count.z, cells.z);
-    return max(d, max(x, max(y, z)));
+float repeat_copy(float d, vec3 p, vec3 spacing, vec3 count, vec3 cells, vec3 centre, vec3 low, vec3 high) {
+    vec3 q = vec3(spacing.x > 0.0f && count.x != 1.0f ? p.x - centre.x : p.x,
+                  spacing.y > 0.0f && count.y != 1.0f ? p.y - centre.y : p.y,
+                  spacing.z > 0.0f && count.z != 1.0f ? p.z - centre.z : p.z);
+    vec3 away = vec3(outside_copy(q.x, spacing.x, count.x, cells.x, low.x, high.x),
+                     outside_copy(q.y, spacing.y, count.y, cells.y, low.y, high.y),
+                     outside_copy(q.z, spacing.z, count.z, cells.z, low.z, high.z));
+    return max(d, length(max(away, 0.0f)) + min(max(away.x, max(away.y, away.z)), 0.0f));
 }
 
-// Copies turned about the y axis, `count` in a full turn; `cells` of them, those with their middles (at the angle centre
-// from x towards z) nearest to p.
-vec3 polar_repeat(vec3 p, float count, float cells, float centre, int cell) {
-    float sector = 6.2831853f / max(count, 1.0f);
-    float along = (atan(p.z, abs(p.x) + abs(p.z) > 0.0f ? p.x : 1.0f) - centre) / sector;
+// Along one axis how far the box of the nearest copy is that is not looked at.
+float next_copy(float p, float spacing, float count, float cells, float centre) {
+    if (spacing <= 0.0f || cells <= 1.0f || cells == count) return 1e9f;
+    float last = 0.5f * (count - 1.0f);
+    float first = first_copy(p, spacing, count, cells, centre);
+    float in_copy = p - centre - first * spacing;
+    float half_width = 0.5f * (cells - 1.0f) * spacing;
+    float before = count > 0.0f && first < 0.5f - last ? 1e9f : in_copy + spacing - half_width;
+    float after = count > 0.0f && first + cells > last + 0.5f ? 1e9f : cells * spacing - in_copy - half_width;
+    return min(before, after);
+}
+
+float repeat_distance(float d, vec3 p, vec3 spacing, vec3 count, vec3 cells, vec3 centre, vec3 low, vec3 high) {
+    vec3 beside = vec3(spacing.x <= 0.0f || count.x == 1.0f ? max(max(low.x - p.x, p.x - high.x), 0.0f) : 0.0f,
+                       spacing.y <= 0.0f || count.y == 1.0f ? max(max(low.y - p.y, p.y - high.y), 0.0f) : 0.0f,
+                       spacing.z <= 0.0f || count.z == 1.0f ? max(max(low.z - p.z, p.z - high.z), 0.0f) : 0.0f);
+    float next = min(next_copy(p.x, spacing.x, count.x, cells.x, centre.x),
+                     min(next_copy(p.y, spacing.y, count.y, cells.y, centre.y),
+                         next_copy(p.z, spacing.z, count.z, cells.z, centre.z)));
+    return min(d, length(vec2(next, length(beside))));
+}
+
+// Copies turned about the y axis, `count` in a full turn; the first of `cells` of them, those with their middles (at the angle
+// centre from x towards z) nearest to p, in sectors from there.
+float first_turn(vec3 p, float count, float cells, float centre) {
+    float along = (atan(p.z, abs(p.x) + abs(p.z) > 0.0f ? p.x : 1.0f) - centre) * max(count, 1.0f) / 6.2831853f;
     float first = floor(along + 0.5f);
-    first -= floor(0.5f * (along >= first ? cells - 1.0f : cells));
-    float angle = (first + float(cell)) * sector;
+    return first - floor(0.5f * (along >= first ? cells - 1.0f : cells));
+}
+
+vec3 polar_repeat(vec3 p, float count, float cells, float centre, float inner, int cell) {
+    float angle = (first_turn(p, count, cells, centre) + float(cell)) * 6.2831853f / max(count, 1.0f);
     float c = cos(angle);
     float s = sin(angle);
     return vec3(c * p.x + s * p.z, p.y, c * p.z - s * p.x);
 }
 
-int polar_repeat_cells(float count, float cells, float centre) {
+int polar_repeat_cells(float count, float cells, float centre, float inner) {
     return int(cells);
 }
 
-// As repeat_cut: within the wedge of half the angle of those cells, to either side of centre.
-float polar_repeat_cut(float d, vec3 p, float count, float cells, float centre) {
+// As repeat_copy and repeat_distance, with sectors of a ring in place of boxes: as wide as those cells see, from the radius
+// inner on.
+float polar_repeat_copy(float d, vec3 p, float count, float cells, float centre, float inner, vec3 low, vec3 high) {
     if (cells == count) return d;
     float angle = 3.1415927f * (cells - 1.0f) / count;
     vec2 edge = vec2(cos(angle), sin(angle));
     vec2 q = vec2(cos(centre) * p.x + sin(centre) * p.z, abs(cos(centre) * p.z - sin(centre) * p.x));
-    float away = length(q - max(dot(q, edge), 0.0f) * edge);
-    return max(d, q.y * edge.x > q.x * edge.y ? away : -away);
+    float wedge = length(q - max(dot(q, edge), 0.0f) * edge);
+    wedge = q.y * edge.x > q.x * edge.y ? wedge : -wedge;
+    vec2 away = vec2(max(wedge, inner - length(q)), max(low.y - p.y, p.y - high.y));
+    return max(d, length(max(away, 0.0f)) + min(max(away.x, away.y), 0.0f));
+}
+
+float polar_repeat_distance(float d, vec3 p, float count, float cells, float centre, float inner, vec3 low, vec3 high) {
+    if (cells == count) return d;
+    float sector = 6.2831853f / count;
+    float along = (atan(p.z, abs(p.x) + abs(p.z) > 0.0f ? p.x : 1.0f) - centre) / sector;
+    float off = abs(along - first_turn(p, count, cells, centre) - 0.5f * (cells - 1.0f));
+    float r = length(vec2(p.x, p.z));
+    float next = max(r * sin(min(sector * (1.0f - off), 1.5707963f)), inner - r);
+    return min(d, length(vec2(next, max(max(low.y - p.y, p.y - high.y), 0.0f))));
 }
 
 // The distance at p of content that was evaluated at the point of its bounds nearest to p; away leads from there to p.

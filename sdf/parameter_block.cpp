@@ -24,7 +24,7 @@ std::size_t ParameterBlock::first_derived(const FieldNode& n) {
     if (!fresh) return place->second;
     for (std::size_t i = 0; i < n.kind->derived.size(); ++i)
         add(n.kind->derived[i], n.values[n.kind->parameters.size() + i]);
-    if (n.kind->confined) add(n.region.low), add(n.region.high);
+    if (n.kind->confined || n.guarded) add(n.region.low), add(n.region.high);
     return place->second;
 }
 

@@ -46,16 +46,12 @@ public:
                 not_finite_ = std::isfinite(pair.fa) ? pair.b : pair.a;
             } else if (counts(pair.a, pair.b)) {
                 if (pair.slope > steepest_.slope) steepest_ = pair;
-                const float apart = glm::distance(pair.a, pair.b) + rounding_;
-                if ((pair.fa < 0.0f) != (pair.fb < 0.0f) && std::max(std::abs(pair.fa), std::abs(pair.fb)) > apart)
-                    unsafe_ = pair;
             }
         }
     }
 
     int tried() const { return tried_; }
     const Pair& steepest() const { return steepest_; }
-    const std::optional<Pair>& unsafe() const { return unsafe_; }
     const std::optional<glm::vec3>& not_finite() const { return not_finite_; }
 
 private:
@@ -107,7 +103,6 @@ private:
     std::mt19937 random_;
     int tried_ = 0;
     Pair steepest_;
-    std::optional<Pair> unsafe_;
     std::optional<glm::vec3> not_finite_;
 };
 

@@ -126,7 +126,7 @@ TEST(Field, CopiesThatAreCutOffHaveNoSurfaceNearerThanTheySay) {
     std::mt19937 random(3);
     for (const Scene& scene : scenes_with_cut_copies()) {
         const FieldEvaluator field(scene);
-        ASSERT_TRUE(field.tree().root->children[0].cut);
+        ASSERT_TRUE(field.tree().root->children[0].guarded);
         for (int i = 0; i < 400; ++i) {
             const glm::vec3 a = random_point(random, 2.0f);
             const float d = field.distance(a);

@@ -268,8 +268,8 @@ TEST(Instances, TunedNodesMoveTheBlockAloneThroughTheirInstances) {
         EXPECT_EQ(before.parameters.size(), after.parameters.size());
     }
     // One set of values however many instances: translation, rotation, scale, two radii, material; then what follows
-    // of one repetition (cells, centre) and one twist (reach, region).
-    EXPECT_EQ(generate(c.scene, Tier::specialised, c.shaft).parameters.size(), 16u + 6u + 1u + 6u);
+    // of one repetition (cells, centre, region) and one twist (reach, region).
+    EXPECT_EQ(generate(c.scene, Tier::specialised, c.shaft).parameters.size(), 16u + 12u + 1u + 6u);
 }
 
 TEST(Instances, LiveMaterialsChangeTheBlockAlone) {

@@ -20,11 +20,9 @@ glm::vec3 random_point(std::mt19937& random, float half) {
     return {x, y, uniform(random, -half, half)};
 }
 
-enum class Repeated { primitives, anything };
-
 /// Operations down to `depth` levels, primitives of the table below (custom code is any of them); often two children
 /// where the kind combines, else one.
-Node random_tree(int depth, Repeated repeated, std::mt19937& random) {
+Node random_tree(int depth, std::mt19937& random) {
     std::vector<NodeKind> kinds;
     for (const KindInfo& kind : node_kinds())
         if (kind.takes_children() == (depth > 1) && kind.role != Role::instance) kinds.push_back(kind.kind);
@@ -36,11 +34,10 @@ Node random_tree(int depth, Repeated repeated, std::mt19937& random) {
     node.transform.rotate = random() % 3 ? random_point(random, 180.0f) : glm::vec3(0.0f);
     node.transform.scale = random() % 3 ? 1.0f : uniform(random, 0.3f, 2.0f);
     if (kind.takes_children()) {
-        const int below = kind.role == Role::repeat && repeated == Repeated::primitives ? 1 : depth - 1;
-        node.children.push_back(random_tree(below, repeated, random));
+        const int below = depth - 1;
+        node.children.push_back(random_tree(below, random));
         if (kind.role == Role::combine && random() % 3)
-            node.children.push_back(
-                random_tree(1 + static_cast<int>(random() % static_cast<unsigned>(below)), repeated, random));
+            node.children.push_back(random_tree(1 + static_cast<int>(random() % static_cast<unsigned>(below)), random));
     }
     return node;
 }
@@ -57,9 +54,9 @@ std::string outline(const Node& node, int depth = 0) {
 class RandomTree : public testing::TestWithParam<unsigned> {
 protected:
     /// A scene of one tree of depth six.
-    Scene scene(Repeated repeated) {
+    Scene scene() {
         Scene scene;
-        scene.root.children.push_back(random_tree(6, repeated, random_));
+        scene.root.children.push_back(random_tree(6, random_));
         return scene;
     }
     std::mt19937 random_{GetParam()};
@@ -69,10 +66,8 @@ INSTANTIATE_TEST_SUITE_P(DepthSix, RandomTree, testing::Range(0u, 8u));
 /// Coordinates of about 2 m pass through six levels of rounding, 1.2e-7 relative each, scales up to 3 a level.
 constexpr float rounding = 5e-5f;
 
-// Where the content of a repetition is a bound the values may jump at the planes between its cells, although they are
-// bounds on either side; so only primitives are repeated here.
 TEST_P(RandomTree, IsOneLipschitz) {
-    const Scene tree = scene(Repeated::primitives);
+    const Scene tree = scene();
     const FieldEvaluator field(tree);
     for (int i = 0; i < 1'000'000; ++i) {
         const glm::vec3 a = random_point(random_, 2.0f);
@@ -84,7 +79,7 @@ TEST_P(RandomTree, IsOneLipschitz) {
 }
 
 TEST_P(RandomTree, HasNoSurfaceNearerThanItSays) {
-    const Scene tree = scene(Repeated::anything);
+    const Scene tree = scene();
     const FieldEvaluator field(tree);
     for (int i = 0; i < 20'000; ++i) {
         const glm::vec3 a = random_point(random_, 2.0f);
@@ -99,7 +94,7 @@ TEST_P(RandomTree, HasNoSurfaceNearerThanItSays) {
 }
 
 TEST_P(RandomTree, LiesWithinItsBounds) {
-    const Scene tree = scene(Repeated::anything);
+    const Scene tree = scene();
     const FieldEvaluator field(tree);
     const Box box = field.tree().bounds();
     for (int i = 0; i < 100'000; ++i) {

@@ -34,7 +34,7 @@ private:
     std::filesystem::path path_;
 };
 
-/// Repetitions of content so wide, or without end, that their copies are cut off (FieldNode::cut).
+/// Repetitions of content so wide, or without end, that their copies are cut off.
 std::vector<Scene> scenes_with_cut_copies();
 
 /// A valid scene of `nodes` nodes (the root included; up to twelve more in definitions), made from the tables: every
