@@ -5,7 +5,6 @@
 #include "app/chart_tables.h"
 #include "app/commands.h"
 #include "app/progress.h"
-#include "renderer/metrics.h"
 #include "renderer/reference_store.h"
 
 #include <fmt/format.h>
@@ -89,12 +88,9 @@ private:
                 progress.advance();
                 return !Progress::interrupted();
             },
-            [&] {
-                if (reference.halves[1].samples > 0) store.save(key, reference);
-            });
-        if (done && mean(reference.indirect()) <= 0.0)
-            throw std::invalid_argument(
-                fmt::format("{}: no indirect light is seen, so errors relative to its mean have no value", name()));
+            [&] { store.save(key, reference); });
+        if (const std::string why = why_unmeasurable(reference); done && !why.empty())
+            throw std::invalid_argument(fmt::format("{}: {}", name(), why));
         return done;
     }
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <exception>
+#include <stdexcept>
 #include <utility>
 
 namespace farfield {
@@ -133,6 +133,7 @@ void Measuring::measure(const Scene& scene, const SweepPlan& plan) {
     };
     if (to_extend > 0 && !extend(reference, renderer, scene, plan.size, plan.reference_samples, reference_frame, keep))
         return;
+    if (const std::string why = why_unmeasurable(reference); !why.empty()) throw std::invalid_argument(why);
     for (const SweepRun& run : sweep.runs()) {
         const std::string doing = fmt::format("AO radius {:.3g} m, seed {} of {}", run.ao_radius, run.seed, plan.seeds);
         const auto frame = [&] {

@@ -40,6 +40,12 @@ void add(Image& mean, int samples, const Image& image, int more) {
         mean.pixels[i] += static_cast<float>(share * (static_cast<double>(image.pixels[i]) - mean.pixels[i]));
 }
 
+/// Automatic bounces leave out what is too little to be seen; the reference does not.
+Scene with_all_bounces(Scene scene) {
+    if (scene.settings.bounces == 0) scene.settings.bounces = most_bounces;
+    return scene;
+}
+
 Image mean_of(const Reference& reference, Image ReferenceHalf::*image) {
     const auto& [a, b] = reference.halves;
     Image mean = a.*image;
@@ -68,14 +74,6 @@ double Reference::noise_relative_mse() const {
         noisy.pixels[i] += static_cast<float>(scale * (a.indirect.pixels[i] - b.indirect.pixels[i]));
     return relative_mse(noisy, reference);
 }
-
-namespace {
-/// Automatic bounces leave out what is too little to be seen; the reference does not.
-Scene with_all_bounces(Scene scene) {
-    if (scene.settings.bounces == 0) scene.settings.bounces = most_bounces;
-    return scene;
-}
-}  // namespace
 
 std::string sha256(std::string_view bytes) {
     char digits[SHA256_DIGEST_STRING_LENGTH];

@@ -64,7 +64,7 @@ Reference ReferenceStore::load(const std::string& key, glm::ivec2 size, std::str
 }
 
 void ReferenceStore::save(const std::string& key, const Reference& reference) const {
-    if (folder_.empty()) return;
+    if (folder_.empty() || reference.halves[1].samples == 0) return;
     std::error_code error;
     fs::create_directories(folder_, error);
     if (error) throw ImageError(fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));

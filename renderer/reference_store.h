@@ -18,7 +18,7 @@ public:
 
     /// An empty reference where there is none or the file is of no use; `problem` says so then, in one line.
     Reference load(const std::string& key, glm::ivec2 size, std::string& problem) const;
-    /// Atomic; makes the folder. Throws ImageError.
+    /// Atomic; makes the folder. Nothing is saved before both halves have samples. Throws ImageError.
     void save(const std::string& key, const Reference& reference) const;
 
 private:

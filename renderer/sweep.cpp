@@ -73,6 +73,11 @@ std::string measurement_key(const Scene& scene, glm::ivec2 size) {
                               s.ao_radius, s.exposure));
 }
 
+std::string why_unmeasurable(const Reference& reference) {
+    if (mean(reference.indirect()) > 0.0) return {};
+    return "no indirect light is seen, so errors relative to its mean have no value";
+}
+
 Sweep::Sweep(Scene scene, SweepPlan plan) : scene_(std::move(scene)), plan_(std::move(plan)) {
     const Settings& own = scene_.settings;
     std::ranges::sort(plan_.samples);

@@ -57,6 +57,9 @@ struct SweepRun {
 /// SHA-256 of all that measurements of a scene depend on beside what they say themselves, 64 hexadecimal digits.
 std::string measurement_key(const Scene& scene, glm::ivec2 size);
 
+/// Why errors against a finished reference have no value; empty where they have one.
+std::string why_unmeasurable(const Reference& reference);
+
 class Sweep {
 public:
     Sweep(Scene scene, SweepPlan plan);

@@ -263,7 +263,7 @@ Edits measure_panel(Ui& ui, const Scene& scene, const MeasureResults& results, M
         }
         const float buttons = ImGui::GetFrameHeightWithSpacing();
         const ImVec2 room = ImGui::GetContentRegionAvail();
-        if (results.points.empty()) {
+        if (std::none_of(results.points.begin(), results.points.end(), can_be_drawn)) {
             introduction(ui);
         } else if (const ChartPoint* chosen =
                        plot(ui, scene, results, {room.x, std::max(room.y - buttons, theme.px(120.0f))})) {
