@@ -2,6 +2,7 @@
 
 #include "renderer/gl.h"
 
+#include <string_view>
 #include <fmt/format.h>
 
 namespace farfield {
@@ -26,6 +27,13 @@ std::unique_ptr<Context> make_headless_context(ContextKind kind) {
         }
     }
     throw ContextError("no OpenGL context can be made:" + why);
+}
+
+bool renders_on_cpu() {
+    const std::string_view device = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    for (const char* name : {"llvmpipe", "softpipe", "SWR", "lavapipe"})
+        if (device.find(name) != std::string_view::npos) return true;
+    return false;
 }
 
 }  // namespace farfield

@@ -27,6 +27,9 @@ std::unique_ptr<Context> make_headless_context(ContextKind kind);
 std::unique_ptr<Context> make_egl_context();
 std::unique_ptr<Context> make_osmesa_context();
 
+/// Whether the current context is one of Mesa's that render on the CPU.
+bool renders_on_cpu();
+
 /// Loads OpenGL through `get_address` and checks the version; for the makers of contexts. Throws ContextError.
 void load_gl(void (*(*get_address)(const char*))());
 

@@ -119,7 +119,6 @@ bool extend(Reference& reference, Renderer& renderer, Scene scene, glm::ivec2 si
     FrameOptions options;
     options.size = size;
     options.samples = frame_samples;
-    options.occlusion = false;
     for (;;) {
         auto& [a, b] = reference.halves;
         ReferenceHalf& half = a.samples <= b.samples ? a : b;

@@ -182,9 +182,10 @@ bool Renderer::step() {
             Timers::Scope scope(timers_, "far light");
             far_light_pass_.run(w, far_samples_, bounces(), scene_.settings.ao_radius);
         }
-        Timers::Scope scope(timers_, "ambient occlusion");
-        for (unsigned ray = 0; ray < occlusion_rays(); ++ray)
+        for (unsigned ray = 0; ray < occlusion_rays(); ++ray) {
+            Timers::Scope scope(timers_, "ambient occlusion");
             occlusion_pass_.run(w, occlusion_samples_ + ray, scene_.settings.ao_radius);
+        }
     }
     first_pixel_ += w.count;
     if (first_pixel_ < targets_->pixels()) return false;

@@ -32,7 +32,7 @@ struct FrameOptions {
     bool measure_bounces = false;   ///< what each adds; automatic bounces otherwise go on with what was measured last
     bool counting = false;          ///< count rays and evaluations; costs a little
     float minimum_step = 1.0f;      ///< of the tracer, times the usual: how far off hits may be
-    bool occlusion = true;          ///< trace ambient occlusion; Method::reference needs none
+    bool occlusion = false;         ///< trace ambient occlusion even where neither method nor view shows it
     std::size_t batch =
         Batch::capacity;  ///< pixels for each step, at most Batch::capacity; changes no bit of the picture
 };
@@ -85,7 +85,10 @@ private:
     void measure_bounces();
     /// For each far-light sample. One ray alone answers black or white, so the first sample takes more: a first picture
     /// without speckle for a few percent of its time.
-    unsigned occlusion_rays() const { return !options_.occlusion ? 0 : occlusion_samples_ == 0 ? 4 : 1; }
+    unsigned occlusion_rays() const {
+        const bool shown = scene_.settings.method == Method::paper || options_.view == View::occlusion;
+        return !shown && !options_.occlusion ? 0 : occlusion_samples_ == 0 ? 4 : 1;
+    }
 
     TracePrograms programs_;
     CameraPass camera_pass_;

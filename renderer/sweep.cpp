@@ -1,5 +1,6 @@
 #include "renderer/sweep.h"
 
+#include "renderer/context.h"
 #include "renderer/flip.h"
 #include "renderer/metrics.h"
 
@@ -16,13 +17,6 @@ namespace {
 std::vector<SweepRun::Reading> own_readings(Varied varied, int blur_levels) {
     return {
         {varied, Method::paper, blur_levels}, {varied, Method::farfield, blur_levels}, {varied, Method::reference, 0}};
-}
-
-/// Where Mesa renders on the CPU, whose time a timer query does not tell from waiting.
-bool renders_on_cpu(const std::string& device) {
-    for (const char* name : {"llvmpipe", "softpipe", "SWR", "lavapipe"})
-        if (device.find(name) != std::string::npos) return true;
-    return false;
 }
 
 /// Time of work on the device: what `work` adds to the clock that counts.
@@ -165,10 +159,11 @@ bool Sweep::measure(Renderer& renderer, const SweepRun& run, const Reference& re
     options.seed = run.seed;
     options.samples = frame_samples_;
     options.minimum_step = run.minimum_step;
+    options.occlusion = true;
     const Image truth = reference.indirect(), shown = exposed(reference.result(), scene.settings.exposure);
     const double truth_mean = mean(truth);
     const gl::Texture display("display", GL_RGBA8, options.size);
-    const bool on_cpu = renders_on_cpu(renderer.statistics().device);
+    const bool on_cpu = renders_on_cpu();
     Stopwatch stopwatch(on_cpu);
     const auto show = [&](const Setting& setting) {
         scene.settings.method = setting.method;
@@ -201,7 +196,7 @@ bool Sweep::measure(Renderer& renderer, const SweepRun& run, const Reference& re
         if (!frame_done()) return false;
         for (; next < expected.size() && expected[next].setting.samples == renderer.statistics().samples; ++next) {
             Measurement m = expected[next];
-            const bool no_occlusion = m.setting.method == Method::reference;
+            const bool no_occlusion = m.setting.method != Method::paper;
             m.seconds = (no_occlusion ? tracing_without_occlusion : tracing) + show(m.setting);
             m.device_time = !on_cpu;
             const Image result = renderer.read(View::result);

@@ -31,12 +31,19 @@ public:
 private:
     struct Entry {
         std::string key;
-        gl::Program program;
+        gl::Program march, surface;
     };
     void compile(const Scene& scene, const GeneratedScene& generated);
 
+    /// See trace.glsl.
+    struct Schedule {
+        std::size_t rays_each;
+        int pause;  ///< evaluations
+    };
+    Schedule schedule_;
+
     std::list<Entry> cache_;  ///< most recently used first
-    const gl::Program* current_ = nullptr;
+    const Entry* current_ = nullptr;
     gl::Buffer parameters_{"parameters"};
     Box bounds_;                        ///< of the current scene
     std::set<std::size_t> structures_;  ///< hashes of the live code of every scene that was compiled
@@ -44,7 +51,7 @@ private:
     double compile_milliseconds_ = 0.0;
 };
 
-/// The whole text of the trace kernel for a generated scene.
-std::string trace_source(const GeneratedScene& generated);
+/// The whole text of a kernel, trace.glsl or surface.glsl, for a generated scene.
+std::string scene_kernel_source(const std::string& file, const GeneratedScene& generated);
 
 }  // namespace farfield

@@ -17,9 +17,10 @@ namespace farfield {
 enum class Tier { live, specialised };
 
 struct GeneratedScene {
-    /// Shape functions used, the code of custom nodes, functions of definitions, then `float scene_distance(vec3 p)`
-    /// and `float scene_surface(vec3 p, out uint material)` (world frame, metres; material code as blend_materials
-    /// makes it). With parameters it also needs `float parameter(int)`.
+    /// Shape functions used, the code of custom nodes, functions of definitions, then `float scene_distance(vec3 p)`,
+    /// `float scene_surface(vec3 p, out uint material)` (world frame, metres; material code as blend_materials makes
+    /// it) and `vec2 scene_march(vec3 p, vec3 v)` (see march_writer.h). With parameters it also needs
+    /// `float parameter(int)`.
     std::string text;
     /// The code without comments. Equal keys mean equal programs: renaming a node changes the text alone, and in the
     /// live tier no parameter edit changes the key.

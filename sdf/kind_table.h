@@ -67,6 +67,14 @@ float primitive(glm::vec3 p, Values v) {
     return call<F>(v, p);
 }
 template <auto F>
+glm::vec2 slope(glm::vec3 p, glm::vec3 direction, Values v) {
+    return call<F>(v, p, direction);
+}
+template <auto F>
+float stay(glm::vec3 p, glm::vec3 direction, float depth, Values v) {
+    return call<F>(v, p, direction, depth);
+}
+template <auto F>
 float combine(float a, float b, Values v) {
     return call<F>(v, a, b);
 }

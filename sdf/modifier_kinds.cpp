@@ -201,6 +201,9 @@ void add_modifiers(std::vector<KindInfo>& t) {
     mirror.domain = domain<shapes::mirror>;
     mirror.image = mirror_image;
     mirror.warnings = mirror_warnings;
+    mirror.way = "mirrored_way";
+    mirror.direction = "mirrored_direction";
+    mirror.straight = [](Values v) { return v[1].x == 0.0f; };
     t.push_back(mirror);
 
     KindInfo elongate =
@@ -239,6 +242,8 @@ void add_modifiers(std::vector<KindInfo>& t) {
                            {"centre", "Middle of one copy", vector, metres}};
     repeat_kind.derive = derive_repeat;
     repeat_kind.warnings = repeat_warnings;
+    repeat_kind.way = "repeated_way";
+    repeat_kind.straight = [](Values) { return true; };
     repeat_kind.secondary = "repeat_cells";
     repeat_kind.guard_copy = "repeat_copy";
     repeat_kind.guarded_copy = [](float d, glm::vec3 p, Values v, const Box& region) {

@@ -4,6 +4,7 @@
 #include "sdf/box.h"
 #include "sdf/parameter.h"
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <array>
@@ -129,6 +130,12 @@ struct KindInfo {
     bool flat;
     std::vector<Parameter> parameters;  ///< of `custom` those that every code has; see parameters(Node)
     const char* function;               ///< in shapes.glsl or operations.glsl; null: none
+    /// Primitives whose field is a convex function, or null: vec2 f(vec3 p, vec3 v, parameters...), the distance and
+    /// outside of the shape its slope along the unit vector v (at a crease any between those on both sides).
+    const char* along;
+    /// Of some of these: float f(vec3 p, vec3 v, float depth, parameters...), how far along v the distance stays below
+    /// -depth.
+    const char* within;
     /// A second function from there, or null. combine: float f(a, b, parameters...), the fraction of b's material;
     /// domain: float f(d, p, parameters..., derived...), a safe distance; repeat: int f(parameters..., derived...), the
     /// number of cells.
@@ -137,12 +144,20 @@ struct KindInfo {
     /// the node's region; where the content's distance is no exact one or it is cut off (FieldNode::guarded).
     const char* guard_copy;
     const char* guard_nearest;
+    /// domain and repeat: float f(vec3 p, vec3 v, parameters..., derived...), how far a ray from p along v is one straight
+    /// ray for the content too, with no parameter but those that `straight` allows; null: not at all. And
+    /// vec3 f(vec3 p, vec3 v, parameters...), its direction there; null: the same.
+    const char* way;
+    const char* direction;
+    bool (*straight)(Values v);
     /// combine: GLSL of the distances {0} and {1} to use when all parameters are known to be 0, for the distance and
     /// for whether the second one's material shows; or null: the functions serve then too.
     const char* when_zero;
     const char* second_shows;
     /// The same functions on the CPU, whichever the role uses.
     float (*primitive)(glm::vec3 p, Values v);
+    glm::vec2 (*slope)(glm::vec3 p, glm::vec3 direction, Values v);
+    float (*stay)(glm::vec3 p, glm::vec3 direction, float depth, Values v);
     float (*combine)(float a, float b, Values v);
     float (*weight)(float a, float b, Values v);
     glm::vec3 (*domain)(glm::vec3 p, Values v, int cell);

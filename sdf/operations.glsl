@@ -195,6 +195,19 @@ vec3 mirror(vec3 p, vec3 axes, float seam) {
     return mix(p, vec3(smooth_abs(p.x, seam), smooth_abs(p.y, seam), smooth_abs(p.z, seam)), axes);
 }
 
+// The direction, after that, of a ray from p along v, and how far it keeps it: until it meets a mirror. Without seam.
+vec3 mirrored_direction(vec3 p, vec3 v, vec3 axes, float seam) {
+    vec3 side = vec3(p.x != 0.0f ? sign(p.x) : sign(v.x), p.y != 0.0f ? sign(p.y) : sign(v.y), p.z != 0.0f ? sign(p.z) : sign(v.z));
+    return mix(v, v * side, axes);
+}
+
+float mirrored_way(vec3 p, vec3 v, vec3 axes, float seam) {
+    vec3 way = vec3(p.x * v.x < 0.0f ? -p.x / v.x : 1e20f, p.y * v.y < 0.0f ? -p.y / v.y : 1e20f,
+                    p.z * v.z < 0.0f ? -p.z / v.z : 1e20f);
+    way = mix(vec3(1e20f), way, axes);
+    return min(way.x, min(way.y, way.z));
+}
+
 // Pulls the content apart at the origin and fills the gap, half_size to either side, with its middle cross-section.
 vec3 elongate(vec3 p, vec3 half_size) {
     return p - clamp(p, -half_size, half_size);
@@ -229,6 +242,31 @@ vec3 repeat(vec3 p, vec3 spacing, vec3 count, vec3 cells, vec3 centre, int cell)
     return vec3(repeat_axis(p.x, spacing.x, count.x, cells.x, centre.x, float(cell % x)),
                 repeat_axis(p.y, spacing.y, count.y, cells.y, centre.y, float((cell / x) % y)),
                 repeat_axis(p.z, spacing.z, count.z, cells.z, centre.z, float(cell / (x * y))));
+}
+
+// How far a ray from p along v goes until others are the nearest neighbours: along one axis they change at equal distances, in
+// their middles where `cells` is even, between them where it is odd, and not beyond the ends of the row.
+float way_to_next(float p, float v, float spacing, float count, float cells, float centre) {
+    if (spacing <= 0.0f || count == 1.0f || cells == count || v == 0.0f) return 1e20f;
+    float last = 0.5f * (count - 1.0f);
+    float offset = count > 0.0f ? last - floor(last) : 0.0f;
+    float odd = cells - 2.0f * floor(0.5f * cells);
+    float along = (p - centre) / spacing - offset + 0.5f * odd;
+    float change = v > 0.0f ? floor(along) + 1.0f : floor(along);
+    if (count > 0.0f) {
+        float before = 0.5f * (cells - 2.0f + odd);
+        float first = 1.0f - last - offset + before;
+        float final = last - (cells - 1.0f) - offset + before;
+        if (v > 0.0f ? change > final : change < first) return 1e20f;
+        change = clamp(change, first, final);
+    }
+    return (change - along) * spacing / v;
+}
+
+float repeated_way(vec3 p, vec3 v, vec3 spacing, vec3 count, vec3 cells, vec3 centre) {
+    return min(way_to_next(p.x, v.x, spacing.x, count.x, cells.x, centre.x),
+               min(way_to_next(p.y, v.y, spacing.y, count.y, cells.y, centre.y),
+                   way_to_next(p.z, v.z, spacing.z, count.z, cells.z, centre.z)));
 }
 
 // Which copies are nearest is certain of exact distances alone. Otherwise the distance d at p of one copy is raised to that of
@@ -525,4 +563,35 @@ uint blend_materials(uint a, uint b, float share_of_b) {
     uint first = (a >> 24u) < 128u ? a & 0xfffu : (a >> 12u) & 0xfffu;
     uint second = (b >> 24u) < 128u ? b & 0xfffu : (b >> 12u) & 0xfffu;
     return share == 0u ? a : share == 255u ? b : first | (second << 12u) | (share << 24u);
+}
+
+// ---- how far a ray may go --------------------------------------------------------------------------------------------
+// For the tracer a node has two numbers: its distance, and how far along the ray, at least, its distance stays above a level.
+
+// From the distance of a convex shape and its slope along the ray: a convex function stays above its tangent, so that Newton's
+// method never passes where it meets the level.
+vec2 advance(vec2 along, float level) {
+    return vec2(along.x, max(along.x - level, 0.0f) / max(-along.y, 1e-20f));
+}
+
+// The same of the smooth union of two convex shapes. Along the ray it is at least that of the tangents, a + t a' and b + t b',
+// which is concave in t and so meets the level once: where the nearer one does, if the other is too far to blend, or else where
+// the parabola of the blend does, (a + b) / 2 - (1/4) radius - (a - b)² / (4 radius), the second time.
+vec2 smooth_union_advance(vec2 a, vec2 b, float radius, float level) {
+    float d = smooth_union(a.x, b.x, radius);
+    float hard = min(advance(a, level).y, advance(b, level).y);
+    vec2 apart = a - b;
+    vec2 middle = 0.5f * (a + b) - vec2(0.25f * radius + level, 0.0f);
+    float q = apart.y * apart.y / (4.0f * radius);
+    float l = middle.y - 0.5f * apart.x * apart.y / radius;
+    float c = middle.x - apart.x * apart.x / (4.0f * radius);
+    float root = sqrt(max(l * l + 4.0f * q * c, 0.0f));
+    float blended = l < 0.0f ? 2.0f * c / (root - l) : (l + root) / max(2.0f * q, 1e-20f);
+    return vec2(d, max(d - level, abs(apart.x + min(hard, 1e9f) * apart.y) >= radius ? hard : blended));
+}
+
+// From the distance and the box that holds the shape, seen from its centre.
+vec2 advance_in_box(float d, float level, vec3 p, vec3 v, vec3 half_size) {
+    vec2 to_box = box_along(p, v, half_size);
+    return vec2(d, max(d - level, max(to_box.x - level, 0.0f) / max(-to_box.y, 1e-20f)));
 }

@@ -35,6 +35,12 @@ KindInfo make_primitive(NodeKind kind, const char* key, const char* label, const
     return k;
 }
 
+/// A primitive whose field is convex: `along` tells its slope too, `within` how far rays stay inside.
+void make_convex(KindInfo& k, const char* along, glm::vec2 (*slope)(glm::vec3, glm::vec3, Values),
+                 const char* within = nullptr, float (*stay)(glm::vec3, glm::vec3, float, Values) = nullptr) {
+    k.along = along, k.slope = slope, k.within = within, k.stay = stay;
+}
+
 KindInfo make_profile(NodeKind kind, const char* key, const char* label, const char* tip,
                       std::vector<Parameter> parameters, Extent (*extent)(Values), const char* function,
                       float (*evaluate)(glm::vec3, Values)) {
@@ -50,14 +56,17 @@ void add_primitives(std::vector<KindInfo>& t) {
     t.push_back(make_primitive(
         K::sphere, "sphere", "Sphere", "All points within a radius", true, {length("radius", "Radius", 0.5f)},
         [](Values v) { return within(glm::vec3(v[0].x)); }, FUNCTION(primitive, sphere)));
+    make_convex(t.back(), FUNCTION(slope, sphere_along), FUNCTION(stay, sphere_within));
     t.push_back(make_primitive(
         K::box, "box", "Box", "A box with sharp edges", true, {lengths("half_size", "Half the edge lengths", 0.5f)},
         [](Values v) { return within(v[0]); }, FUNCTION(primitive, box)));
+    make_convex(t.back(), FUNCTION(slope, box_along), FUNCTION(stay, box_within));
     t.push_back(make_primitive(
         K::rounded_box, "rounded_box", "Rounded box", "A box with rounded edges", true,
         {lengths("half_size", "Half the edge lengths, rounding included", 0.5f),
          length("radius", "Radius of the edges, at most the smallest half size", 0.1f)},
         [](Values v) { return within(v[0]); }, FUNCTION(primitive, rounded_box)));
+    make_convex(t.back(), FUNCTION(slope, rounded_box_along));
     t.push_back(make_primitive(
         K::torus, "torus", "Torus", "A ring around the y axis", true,
         {length("major_radius", "From the axis to the middle of the tube", 0.5f),
@@ -67,6 +76,7 @@ void add_primitives(std::vector<KindInfo>& t) {
         K::capsule, "capsule", "Capsule", "A cylinder along y with round ends", true,
         {length("radius", "Radius", 0.25f), length("half_height", "Half the length of the straight part", 0.25f)},
         [](Values v) { return turned(v[0].x, -v[0].x - v[1].x, v[0].x + v[1].x); }, FUNCTION(primitive, capsule)));
+    make_convex(t.back(), FUNCTION(slope, capsule_along));
     t.push_back(make_primitive(
         K::capped_cylinder, "capped_cylinder", "Cylinder", "A cylinder along y with flat ends", true,
         {length("radius", "Radius", 0.4f), length("half_height", "Half the height", 0.5f)},
@@ -74,16 +84,19 @@ void add_primitives(std::vector<KindInfo>& t) {
             return within({v[0].x, v[1].x, v[0].x});
         },
         FUNCTION(primitive, capped_cylinder)));
+    make_convex(t.back(), FUNCTION(slope, capped_cylinder_along), FUNCTION(stay, capped_cylinder_within));
     t.push_back(make_primitive(
         K::cone, "cone", "Cone", "A cone along y, tip up, with a flat base", true,
         {length("radius", "Radius of the base", 0.5f), length("half_height", "Half the height", 0.5f)},
         [](Values v) { return turned(v[0].x, -v[1].x, v[1].x); }, FUNCTION(primitive, cone)));
+    make_convex(t.back(), FUNCTION(slope, cone_along));
     t.push_back(make_primitive(
         K::plane, "plane", "Plane", "Everything at and below y = 0", true, {},
         [](Values) {
             return Extent{{glm::vec3(-unbounded), {unbounded, 0.0f, unbounded}}, xz};
         },
         FUNCTION(primitive, plane)));
+    make_convex(t.back(), FUNCTION(slope, plane_along), FUNCTION(stay, plane_within));
     t.push_back(make_primitive(
         K::infinite_cylinder, "infinite_cylinder", "Infinite cylinder", "A cylinder along y without ends", true,
         {length("radius", "Radius", 0.25f)},
@@ -91,6 +104,7 @@ void add_primitives(std::vector<KindInfo>& t) {
             return within({v[0].x, unbounded, v[0].x});
         },
         FUNCTION(primitive, infinite_cylinder)));
+    make_convex(t.back(), FUNCTION(slope, infinite_cylinder_along), FUNCTION(stay, infinite_cylinder_within));
     t.push_back(make_primitive(
         K::box_frame, "box_frame", "Box frame", "The twelve edges of a box, as bars", true,
         {lengths("half_size", "Half the edge lengths", 0.5f),
@@ -122,11 +136,13 @@ void add_primitives(std::vector<KindInfo>& t) {
             return within({v[0].x, v[1].x, v[0].x});
         },
         FUNCTION(primitive, rounded_cylinder)));
+    make_convex(t.back(), FUNCTION(slope, rounded_cylinder_along));
     t.push_back(make_primitive(
         K::capped_cone, "capped_cone", "Capped cone", "A cone along y without its tip", true,
         {length("lower_radius", "Radius of the lower end", 0.5f),
          length("upper_radius", "Radius of the upper end", 0.25f), length("half_height", "Half the height", 0.5f)},
         [](Values v) { return turned(glm::max(v[0].x, v[1].x), -v[2].x, v[2].x); }, FUNCTION(primitive, capped_cone)));
+    make_convex(t.back(), FUNCTION(slope, capped_cone_along));
     t.push_back(make_primitive(
         K::round_cone, "round_cone", "Round cone", "Two balls and all between them, along y", true,
         {length("lower_radius", "Radius of the lower ball", 0.35f),
@@ -137,6 +153,7 @@ void add_primitives(std::vector<KindInfo>& t) {
                           glm::max(v[2].x + v[1].x, v[0].x - v[2].x));
         },
         FUNCTION(primitive, round_cone)));
+    make_convex(t.back(), FUNCTION(slope, round_cone_along));
     t.push_back(make_primitive(
         K::hexagonal_prism, "hexagonal_prism", "Hexagonal prism", "A regular hexagon in the xz plane, with height",
         true,
@@ -210,6 +227,7 @@ void add_primitives(std::vector<KindInfo>& t) {
         K::ellipsoid, "ellipsoid", "Ellipsoid", "A sphere stretched along the axes", false,
         {lengths("radii", "Half the lengths along x, y and z", 0.5f, 1e-3f)}, [](Values v) { return within(v[0]); },
         FUNCTION(primitive, ellipsoid)));
+    make_convex(t.back(), FUNCTION(slope, ellipsoid_along));
     t.push_back(make_profile(
         K::circle, "circle", "Circle", "A profile: all points within a radius of the z axis",
         {length("radius", "Radius", 0.5f)},

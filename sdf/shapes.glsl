@@ -7,6 +7,10 @@
 // A function not marked as a bound returns the exact Euclidean distance. Most forms are those that Inigo Quilez
 // collected ("Distance functions", 2008-2024); deviations are explained where they are. Solids of revolution are described
 // in the half plane q = (distance from the y axis, y).
+//
+// After convex shapes stands what the tracer asks of them: the distance and, outside, its slope along the unit vector v. The
+// gradient is the unit vector from the nearest point to p; at creases of the distance any gradient between will do. And of
+// some, how far a ray from p along v stays inside, more than `depth` below the surface: 0 where p is not.
 
 // ---- primitives ----------------------------------------------------------------------------------------------------
 
@@ -14,15 +18,45 @@ float sphere(vec3 p, float radius) {
     return length(p) - radius;
 }
 
+vec2 sphere_along(vec3 p, vec3 v, float radius) {
+    float l = length(p);
+    return vec2(l - radius, dot(p, v) / max(l, 1e-20f));
+}
+
+float sphere_within(vec3 p, vec3 v, float depth, float radius) {
+    float along = dot(p, v);
+    float outside = dot(p, p) - (radius - depth) * (radius - depth);
+    return outside < 0.0f && depth < radius ? sqrt(along * along - outside) - along : 0.0f;
+}
+
 float box(vec3 p, vec3 half_size) {
     vec3 q = abs(p) - half_size;
     return length(max(q, vec3(0.0f))) + min(max(q.x, max(q.y, q.z)), 0.0f);
+}
+
+vec2 box_along(vec3 p, vec3 v, vec3 half_size) {
+    vec3 q = abs(p) - half_size;
+    vec3 from_box = max(q, vec3(0.0f));
+    float d = length(from_box);
+    return vec2(d + min(max(q.x, max(q.y, q.z)), 0.0f), dot(from_box * sign(p), v) / max(d, 1e-20f));
+}
+
+float box_within(vec3 p, vec3 v, float depth, vec3 half_size) {
+    vec3 inner = half_size - vec3(depth);
+    vec3 q = abs(p) - inner;
+    vec3 ways = (inner - p * sign(v)) / max(abs(v), vec3(1e-20f));
+    return max(q.x, max(q.y, q.z)) < 0.0f ? min(ways.x, min(ways.y, ways.z)) : 0.0f;
 }
 
 // A box whose edges are rounded within its size; the radius is limited to the smallest half size.
 float rounded_box(vec3 p, vec3 half_size, float radius) {
     float r = min(radius, min(half_size.x, min(half_size.y, half_size.z)));
     return box(p, half_size - vec3(r)) - r;
+}
+
+vec2 rounded_box_along(vec3 p, vec3 v, vec3 half_size, float radius) {
+    float r = min(radius, min(half_size.x, min(half_size.y, half_size.z)));
+    return box_along(p, v, half_size - vec3(r)) - vec2(r, 0.0f);
 }
 
 // Around the y axis: a tube of minor_radius along a circle of major_radius in the xz plane.
@@ -35,9 +69,26 @@ float capsule(vec3 p, float radius, float half_height) {
     return length(vec3(p.x, p.y - clamp(p.y, -half_height, half_height), p.z)) - radius;
 }
 
+vec2 capsule_along(vec3 p, vec3 v, float radius, float half_height) {
+    return sphere_along(vec3(p.x, p.y - clamp(p.y, -half_height, half_height), p.z), v, radius);
+}
+
 float capped_cylinder(vec3 p, float radius, float half_height) {
     vec2 q = vec2(length(vec2(p.x, p.z)) - radius, abs(p.y) - half_height);
     return length(max(q, vec2(0.0f))) + min(max(q.x, q.y), 0.0f);
+}
+
+// Of a solid of revolution, from q in the half plane and the vector to q from the nearest point there.
+vec2 turned_along(float d, vec2 from_nearest, vec3 p, vec3 v) {
+    float away = (p.x * v.x + p.z * v.z) / max(length(vec2(p.x, p.z)), 1e-20f);
+    return vec2(d, (from_nearest.x * away + from_nearest.y * v.y) / max(length(from_nearest), 1e-20f));
+}
+
+vec2 capped_cylinder_along(vec3 p, vec3 v, float radius, float half_height) {
+    vec2 q = vec2(length(vec2(p.x, p.z)) - radius, abs(p.y) - half_height);
+    vec2 from_nearest = max(q, vec2(0.0f));
+    return turned_along(length(from_nearest) + min(max(q.x, q.y), 0.0f),
+                        vec2(from_nearest.x, from_nearest.y * sign(p.y)), p, v);
 }
 
 // Base disc at y = -half_height, tip at y = half_height. In the half plane (radius, y) the solid is a triangle: the
@@ -54,9 +105,26 @@ float cone(vec3 p, float radius, float half_height) {
     return inside ? -d : d;
 }
 
+vec2 cone_along(vec3 p, vec3 v, float radius, float half_height) {
+    vec2 q = vec2(length(vec2(p.x, p.z)), p.y);
+    vec2 to_base = vec2(max(q.x - radius, 0.0f), q.y + half_height);
+    vec2 side = vec2(radius, -2.0f * half_height);
+    vec2 from_tip = q - vec2(0.0f, half_height);
+    vec2 to_side = from_tip - side * clamp(dot(from_tip, side) / max(dot(side, side), 1e-12f), 0.0f, 1.0f);
+    return turned_along(cone(p, radius, half_height), dot(to_base, to_base) < dot(to_side, to_side) ? to_base : to_side, p, v);
+}
+
 // The half space y <= 0.
 float plane(vec3 p) {
     return p.y;
+}
+
+vec2 plane_along(vec3 p, vec3 v) {
+    return vec2(p.y, v.y);
+}
+
+float plane_within(vec3 p, vec3 v, float depth) {
+    return max(-p.y - depth, 0.0f) / max(v.y, 1e-20f);
 }
 
 // A bound: that of the ball of the same relative size, or the distance to the box around it, whichever is larger. The exact
@@ -67,9 +135,34 @@ float ellipsoid(vec3 p, vec3 radii) {
     return max((length(p / radii) - 1.0f) * shortest, box(p, radii));
 }
 
+// The larger one of two convex functions, and so convex.
+vec2 ellipsoid_along(vec3 p, vec3 v, vec3 radii) {
+    float shortest = min(radii.x, min(radii.y, radii.z));
+    vec2 in_ball = sphere_along(p / radii, v / radii, 1.0f) * shortest;
+    vec2 in_box = box_along(p, v, radii);
+    return in_ball.x > in_box.x ? in_ball : in_box;
+}
+
 // Everything within radius of the y axis.
 float infinite_cylinder(vec3 p, float radius) {
     return length(vec2(p.x, p.z)) - radius;
+}
+
+vec2 infinite_cylinder_along(vec3 p, vec3 v, float radius) {
+    return sphere_along(vec3(p.x, 0.0f, p.z), v, radius);
+}
+
+float infinite_cylinder_within(vec3 p, vec3 v, float depth, float radius) {
+    float across = max(v.x * v.x + v.z * v.z, 1e-12f);
+    float along = p.x * v.x + p.z * v.z;
+    float outside = p.x * p.x + p.z * p.z - (radius - depth) * (radius - depth);
+    return outside < 0.0f && depth < radius ? (sqrt(along * along - across * outside) - along) / across : 0.0f;
+}
+
+float capped_cylinder_within(vec3 p, vec3 v, float depth, float radius, float half_height) {
+    float h = half_height - depth;
+    float to_end = abs(p.y) < h ? (h - p.y * sign(v.y)) / max(abs(v.y), 1e-20f) : 0.0f;
+    return min(infinite_cylinder_within(p, v, depth, radius), to_end);
 }
 
 // The twelve edges of a box, as bars of this thickness within its size; the thickness is limited to the smallest half size.
@@ -109,6 +202,11 @@ float rounded_cylinder(vec3 p, float radius, float half_height, float edge_radiu
     return capped_cylinder(p, radius - r, half_height - r) - r;
 }
 
+vec2 rounded_cylinder_along(vec3 p, vec3 v, float radius, float half_height, float edge_radius) {
+    float r = min(edge_radius, min(radius, half_height));
+    return capped_cylinder_along(p, v, radius - r, half_height - r) - vec2(r, 0.0f);
+}
+
 // A cone without its tip. The distance is the lesser one to the nearer disc and to the slanted side.
 float capped_cone(vec3 p, float lower_radius, float upper_radius, float half_height) {
     vec2 q = vec2(length(vec2(p.x, p.z)), p.y);
@@ -122,6 +220,17 @@ float capped_cone(vec3 p, float lower_radius, float upper_radius, float half_hei
     return inside ? -d : d;
 }
 
+vec2 capped_cone_along(vec3 p, vec3 v, float lower_radius, float upper_radius, float half_height) {
+    vec2 q = vec2(length(vec2(p.x, p.z)), p.y);
+    vec2 to_disc = vec2(max(q.x - (q.y < 0.0f ? lower_radius : upper_radius), 0.0f), abs(q.y) - half_height);
+    vec2 side = vec2(upper_radius - lower_radius, 2.0f * half_height);
+    vec2 from_rim = q - vec2(lower_radius, -half_height);
+    vec2 to_side = from_rim - side * clamp(dot(from_rim, side) / max(dot(side, side), 1e-12f), 0.0f, 1.0f);
+    bool disc = dot(to_disc, to_disc) < dot(to_side, to_side);
+    return turned_along(capped_cone(p, lower_radius, upper_radius, half_height),
+                        disc ? vec2(to_disc.x, to_disc.y * sign(q.y)) : to_side, p, v);
+}
+
 // The convex hull of two balls at y = -half_height and y = half_height: a ball whose centre moves up the axis while its
 // radius shrinks by `taper` for each metre. The nearest such ball is found in closed form; where one end holds the other,
 // taper is 1 and only the larger ball is left.
@@ -131,6 +240,16 @@ float round_cone(vec3 p, float lower_radius, float upper_radius, float half_heig
     vec2 q = vec2(length(vec2(p.x, p.z)), (lower_radius >= upper_radius ? p.y : -p.y) + half_height);
     float s = clamp(q.y - q.x * taper / sqrt(max(1.0f - taper * taper, 1e-12f)), 0.0f, 2.0f * half_height);
     return length(vec2(q.x, q.y - s)) - (larger - taper * s);
+}
+
+vec2 round_cone_along(vec3 p, vec3 v, float lower_radius, float upper_radius, float half_height) {
+    float larger = max(lower_radius, upper_radius);
+    float taper = min(abs(lower_radius - upper_radius) / max(2.0f * half_height, 1e-9f), 1.0f);
+    float up = lower_radius >= upper_radius ? 1.0f : -1.0f;
+    vec2 q = vec2(length(vec2(p.x, p.z)), up * p.y + half_height);
+    float s = clamp(q.y - q.x * taper / sqrt(max(1.0f - taper * taper, 1e-12f)), 0.0f, 2.0f * half_height);
+    vec2 from_centre = vec2(q.x, q.y - s);
+    return turned_along(length(from_centre) - (larger - taper * s), vec2(from_centre.x, up * from_centre.y), p, v);
 }
 
 // From the distance in the plane and the distance along the normal, |along| - half_height, to that of the prism.

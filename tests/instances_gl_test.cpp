@@ -73,7 +73,7 @@ TEST_F(InstancesOnGpu, GiveThePictureOfTheirCopiesInEveryTier) {
 TEST_F(InstancesOnGpu, EveryNameCompiles) {
     // All words of the program itself, keywords among them, and those that GLSL reserves.
     Scene scene = pieces();
-    const std::string source = trace_source(generate(scene, Tier::live));
+    const std::string source = scene_kernel_source("trace.glsl", generate(scene, Tier::live));
     std::set<std::string> words{"gl_Position", "main", "sampler2D", "class", "template", "switch", "double", "highp",
                                 "__LINE__",    "1st",  "no",        "scene", "ü",        "a\\",    "*/",     "\"q\""};
     std::string word;
@@ -82,7 +82,7 @@ TEST_F(InstancesOnGpu, EveryNameCompiles) {
             word += c;
             continue;
         }
-        for (const char* end : {"", "_distance", "_surface"})
+        for (const char* end : {"", "_distance", "_surface", "_march"})
             if (const std::string_view ending = end; word.ends_with(ending) && word.size() > ending.size())
                 words.insert(word.substr(0, word.size() - ending.size()));
         word.clear();
@@ -103,7 +103,7 @@ TEST_F(InstancesOnGpu, EveryNameCompiles) {
         scene.root.children.push_back(instance);
     }
     GeneratedScene generated = generate(scene, Tier::specialised);
-    const std::string text = trace_source(generated);
+    const std::string text = scene_kernel_source("trace.glsl", generated);
     // The front end alone: what it accepts the driver can link.
     const GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
     const char* pointer = text.c_str();

@@ -53,6 +53,19 @@ std::vector<RayRecord> camera_rays(const Box& box) {
     return rays;
 }
 
+/// Rays from places in the box where there is nothing, all ways: as light travels.
+std::vector<RayRecord> inner_rays(const Box& box, const FieldEvaluator& field, std::mt19937& random) {
+    const auto uniform = [&] { return static_cast<float>(random() >> 8) * 0x1p-23f - 1.0f; };
+    std::vector<RayRecord> rays;
+    for (int tries = 0; rays.size() < 1024 && tries < 50000; ++tries) {
+        const glm::vec3 origin = box.centre() + 0.5f * box.size() * glm::vec3(uniform(), uniform(), uniform());
+        const glm::vec3 direction(uniform(), uniform(), uniform());
+        if (field.distance(origin) > 0.01f && glm::length(direction) > 0.1f)
+            rays.push_back({origin, 2.0f * glm::length(box.size()), glm::normalize(direction), footprint});
+    }
+    return rays;
+}
+
 /// Where each ray meets the surface, -1 where it does not.
 std::vector<float> traced(const Scene& scene, Tier tier, const std::vector<RayRecord>& rays) {
     TracePrograms tracer;
@@ -89,7 +102,7 @@ std::vector<float> marched(const Scene& scene, const std::vector<RayRecord>& ray
         "    vec3 a = (scene_low - rays[i].origin) / rays[i].direction, b = (scene_high - rays[i].origin) / "
         "rays[i].direction;\n"
         "    vec3 enter = min(a, b), leave = max(a, b);\n"
-        "    float t = max(enter.x, max(enter.y, enter.z)) - {step};\n"
+        "    float t = max(max(enter.x, max(enter.y, enter.z)) - {step}, 0.0);\n"
         "    float end = min(leave.x, min(leave.y, leave.z)) + {step};\n"
         "    float low = t, high = -1.0;\n"
         "    int halvings = 0;\n"
@@ -131,22 +144,21 @@ class March : public GlTest {
 protected:
     /// `node` over a beam and a ball, which lie off all axes and symmetries.
     void expect_no_difference(Node node, const std::string& name, const char* code = nullptr) {
-        Node beam = make_node(NodeKind::box), ball = make_node(NodeKind::sphere);
-        beam.values[0] = {0.4f, 0.5f, 0.06f};
-        beam.transform.rotate = {0.0f, 20.0f, 0.0f};
-        ball.values[0].x = 0.2f;
-        ball.transform.translate = {0.35f, 0.3f, 0.1f};
-        if (info(node.kind).takes_children()) node.children = {beam, ball};
+        if (info(node.kind).takes_children()) node.children = {beam(), ball()};
         Scene scene;
         const Id id = apply(scene, InsertNode{scene.root.id, -1, node});
         if (code) apply(scene, SetCode{id, code});
+        expect_no_difference(scene, Tier::specialised, name);
+    }
 
+    void expect_no_difference(const Scene& scene, Tier tier, const std::string& name, int early_allowed = 0) {
         const FieldEvaluator field(scene);
-        Box box = field.tree().bounds();
-        box = box.common({glm::vec3(-2.0f), glm::vec3(2.0f)});
-        const std::vector<RayRecord> rays = camera_rays(box);
-        const std::vector<float> expected = marched(scene, rays), found = traced(scene, Tier::specialised, rays);
+        const Box box = field.tree().bounds().common({glm::vec3(-2.0f), glm::vec3(2.0f)});
         std::mt19937 random(1);
+        std::vector<RayRecord> rays = camera_rays(box);
+        const std::vector<RayRecord> inner = inner_rays(box, field, random);
+        rays.insert(rays.end(), inner.begin(), inner.end());
+        const std::vector<float> expected = marched(scene, rays), found = traced(scene, tier, rays);
         int hits = 0, holes = 0, early = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const float tolerance = 2.0f * footprint * rays[i].reach;
@@ -158,7 +170,21 @@ protected:
         }
         EXPECT_GT(hits, 50) << name;
         EXPECT_EQ(holes, 0) << name << ": rays went through the surface, of " << hits << " that meet it";
-        EXPECT_EQ(early, 0) << name << ": rays met a surface that is not there, of " << rays.size();
+        EXPECT_LE(early, early_allowed) << name << ": rays met a surface that is not there, of " << rays.size();
+    }
+
+    static Node beam() {
+        Node node = make_node(NodeKind::box);
+        node.values[0] = {0.4f, 0.5f, 0.06f};
+        node.transform.rotate = {0.0f, 20.0f, 0.0f};
+        return node;
+    }
+
+    static Node ball() {
+        Node node = make_node(NodeKind::sphere);
+        node.values[0].x = 0.2f;
+        node.transform.translate = {0.35f, 0.3f, 0.1f};
+        return node;
     }
 };
 
@@ -176,9 +202,12 @@ TEST_F(March, FindsWhatTinyStepsFind) {
         {K::stretch, {{{0.05f, 3.0f, 0.4f}}, {{0.3f, 4.0f, 0.08f}}}},
         {K::displace_sine, {{x(0.1f), x(0.08f)}, {x(0.3f), x(0.05f)}}},
         {K::displace_noise, {{x(0.1f), x(0.1f), x(8.0f)}, {x(0.02f), x(0.01f), x(2.0f)}}},
-        {K::repeat, {{{0.3f, 0.0f, 0.21f}, {4.0f, 1.0f, 3.0f}}, {{0.7f, 0.9f, 0.8f}, {2.0f, 3.0f, 2.0f}}}},
+        {K::repeat,
+         {{{0.3f, 0.0f, 0.21f}, {4.0f, 1.0f, 3.0f}},
+          {{0.7f, 0.9f, 0.8f}, {2.0f, 3.0f, 2.0f}},
+          {{0.0f, 0.4f, 1.2f}, {1.0f, 5.0f, 3.0f}}}},
         {K::polar_repeat, {{x(1.0f)}, {x(12.0f)}}},
-        {K::mirror, {{glm::vec3(1.0f), x(0.3f)}}},
+        {K::mirror, {{glm::vec3(1.0f), x(0.3f)}, {glm::vec3(1.0f), x(0.0f)}}},
         {K::elongate, {{glm::vec3(0.4f)}}},
         {K::morph, {{x(0.05f)}}},
         {K::ellipsoid, {{{1.0f, 0.01f, 0.3f}}}},
@@ -192,6 +221,51 @@ TEST_F(March, FindsWhatTinyStepsFind) {
             node.values = c.values[i];
             expect_no_difference(node, fmt::format("{}, extreme parameters {}", name, i));
         }
+    }
+}
+
+/// Where the tracer goes on by more than the distance: see march_writer.h.
+TEST_F(March, FindsWhatTinyStepsFindOfConvexShapes) {
+    const auto placed = [](Node node, glm::vec3 translate, glm::vec3 rotate, float scale) {
+        node.transform = {translate, rotate, scale};
+        return node;
+    };
+    const auto group = [](NodeKind kind, float radius, std::vector<Node> children) {
+        Node node = make_node(kind);
+        if (!node.values.empty()) node.values[0].x = radius;
+        node.children = std::move(children);
+        return node;
+    };
+    Node room = make_node(NodeKind::box), hollow = make_node(NodeKind::box),
+         bore = make_node(NodeKind::capped_cylinder);
+    room.values[0] = {1.0f, 0.7f, 0.9f};
+    hollow.values[0] = {0.9f, 0.6f, 0.8f};
+    bore.values[1].x = 2.0f;
+    for (const KindInfo& kind : node_kinds()) {
+        const bool combines = kind.role == Role::combine;
+        if (!kind.along && !combines && kind.role != Role::distance) continue;
+        Scene scene;
+        const auto add = [&](const Node& node) { apply(scene, InsertNode{scene.root.id, -1, node}); };
+        if (combines || kind.role == Role::distance) {
+            // With an edge, turned and scaled, and within a blend, where a level above 0 is asked for.
+            const Node pair = group(kind.kind, kind.kind == NodeKind::morph ? 0.4f : 0.08f, {beam(), ball()});
+            add(placed(pair, {-0.7f, 0.0f, 0.1f}, {20.0f, 30.0f, 10.0f}, 0.8f));
+            add(group(NodeKind::union_, 0.2f, {placed(pair, {0.6f, 0.1f, 0.0f}, {0.0f, 50.0f, 0.0f}, 1.2f), ball()}));
+        } else {
+            // Alone, taken away from another one, and both in a room.
+            const Node shape = make_node(kind.kind);
+            if (kind.kind == NodeKind::plane) add(placed(shape, {0.0f, -0.8f, 0.0f}, {10.0f, 0.0f, 5.0f}, 1.0f));
+            add(placed(shape, {-0.5f, -0.3f, 0.0f}, {20.0f, 30.0f, 10.0f}, 0.7f));
+            add(group(NodeKind::subtract, 0.02f,
+                      {beam(), placed(shape, {0.1f, 0.4f, 0.1f}, {40.0f, 0.0f, 0.0f}, 0.6f)}));
+            const Node hollows = group(NodeKind::union_, 0.05f, {hollow, placed(bore, {}, {90.0f, 0.0f, 0.0f}, 0.9f)});
+            add(group(NodeKind::subtract, 0.0f, {room, hollows}));
+        }
+        // A few rays that graze edges stop where the field is flatter than the distance, more than a millimetre off.
+        constexpr int grazing = 12;
+        expect_no_difference(scene, Tier::specialised, kind.key, grazing);
+        if (kind.kind == NodeKind::box || kind.kind == NodeKind::union_ || kind.kind == NodeKind::subtract)
+            expect_no_difference(scene, Tier::live, std::string(kind.key) + ", live", grazing);
     }
 }
 

@@ -79,9 +79,10 @@ TEST_F(Render, AllTiersGiveTheSamePicture) {
         const Image literals = render(scene, 2);
         for (const FrameOptions& options : {live, tuned}) {
             use(ContextKind::automatic);
-            // Rounding differs, so single paths at edges may part ways; the picture must not.
+            // Rounding differs, and where rays stop within their tolerance, so single paths may part ways; the picture must
+            // not.
             const Difference difference = compare(literals, render(scene, 2, options));
-            EXPECT_LE(difference.rmse, 2e-3) << name;
+            EXPECT_LE(difference.rmse, 6e-3) << name;
         }
     }
 }

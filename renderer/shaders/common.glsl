@@ -97,6 +97,16 @@ float openness_at(int pixel) {
     return rays > 0.0 ? (split_far_sum[pixel].w + short_rays.y - short_rays.z) / rays : 1.0;
 }
 
+// Of coordinates near p, metres; twice that of a float.
+float float_spacing(vec3 p) {
+    return 2.5e-7 * max(abs(p.x), max(abs(p.y), abs(p.z)));
+}
+
+// How far off a hit may be after t metres of a ray with that footprint and the float spacing of its origin, metres.
+float hit_tolerance(float footprint, float spacing, float t) {
+    return max(1e-5, max(footprint * t, spacing + 2.5e-7 * t));
+}
+
 // Octahedral map of the unit sphere (Meyer et al. 2010), 16 bits for each of two coordinates.
 uint pack_normal(vec3 n) {
     vec2 q = n.xy / (abs(n.x) + abs(n.y) + abs(n.z));

@@ -25,8 +25,7 @@ void main() {
     vec4 filtered4 = textureLod(filtered_light, (vec2(at) + 0.5) / vec2(image_size), 0.0);
     vec3 filtered = filtered4.w > 0.0 ? filtered4.rgb / filtered4.w : vec3(0.0);
     vec4 occlusion4 = occlusion_sum[pixel];
-    float occlusion = occlusion4.y > 0.0 ? occlusion4.x / occlusion4.y : 1.0;
-    if (method == 1) occlusion = openness_at(pixel);
+    float occlusion = method == 0 && occlusion4.y > 0.0 ? occlusion4.x / occlusion4.y : openness_at(pixel);
     vec4 indirect4 = indirect_sum[pixel];
     vec4 geometry = geometry_sum[pixel];
     float covered = geometry.w / frames;

@@ -1,0 +1,30 @@
+// What the rays of the ray buffer have met: normal and material of each hit, into the hit buffer. The generated distance
+// function stands before this. A kernel apart from the march, whose rays end at different times: here all lanes do the
+// same, and rays that only ask whether something is in the way never come here.
+layout(local_size_x = 64) in;
+
+uniform uint ray_count;
+
+void main() {
+    load_parameters();
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= ray_count || hits[i].distance < 0.0) return;
+    Ray ray = rays[i];
+    float t = hits[i].distance;
+    vec3 p = ray.origin + t * ray.direction;
+    float spacing = float_spacing(ray.origin);
+    float apart = max(hit_tolerance(ray.footprint * exp2(minimum_step), spacing, t), 4.0 * spacing + 1e-4);
+    vec3 gradient = vec3(0.0);
+    uint material;
+    int k = 0;
+    do {
+        // Corners of a tetrahedron: (1,1,1), (1,-1,-1), (-1,1,-1), (-1,-1,1). They bring the material along, so that the
+        // scene stands in the program once.
+        vec3 e = vec3(k < 2 ? 1.0 : -1.0, (k & 1) == 0 ? 1.0 : -1.0, k == 0 || k == 3 ? 1.0 : -1.0);
+        gradient += e * scene_surface(p + e * apart, material);
+    } while (++k < 4);
+    float steepness = dot(gradient, gradient);
+    vec3 normal = steepness > 0.0 ? gradient * inversesqrt(steepness) : -ray.direction;
+    hits[i].normal = pack_normal(normal);
+    hits[i].material = material;
+}

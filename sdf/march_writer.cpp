@@ -1,0 +1,324 @@
+#include "sdf/march_writer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace farfield {
+namespace {
+
+constexpr const char* indent = "    ";
+
+std::string with_level(const std::string& distance, float level) {
+    return level == 0.0f ? fmt::format("vec2({})", distance)
+                         : fmt::format("vec2(0.0, {}) + {}", literal(-level), distance);
+}
+
+/// Whether one function does for both numbers: the least or the largest.
+bool is_hard(const KindInfo& kind) { return kind.when_zero && kind.gather != Gather::first; }
+
+/// Whether the field is at least the opposite of that of each child after the first.
+bool takes_away(const KindInfo& kind) { return kind.when_zero && kind.gather == Gather::first; }
+/// Whether the field is at most that of each child.
+bool adds(const KindInfo& kind) { return kind.when_zero && kind.gather == Gather::any; }
+
+}  // namespace
+
+MarchWriter::MarchWriter(const FieldTree& tree, const CodeNames& names, ParameterBlock& block)
+    : CodeWriter(tree, names, block, false) {
+    writes_copies_ = false;
+}
+
+CodeLines MarchWriter::write() {
+    CodeLines all{names_};
+    for (std::size_t i = 0; i < tree_.definitions.size(); ++i) {
+        const FieldNode& n = tree_.definitions[i];
+        materials_.emplace_back();
+        next_group_ = next_child_ = 0;
+        CodeLines body{names_};
+        const March result = march(n, "p", "v", 0.0f, body);
+        definitions_gain_.push_back(gains(n, 0.0f));
+        if (!definitions_gain_.back()) continue;
+        take_functions(all);
+        all.add(fmt::format("vec2 {}_march(vec3 p, vec3 v) {{", CodeNames::of_definition(i)), n.id,
+                n.kind->takes_children() ? "" : comment(n));
+        all.append(body);
+        all.add(fmt::format("    return {};", result.value), n.id);
+        all.add("}");
+        all.add("");
+    }
+    const char* scene = "vec2 scene_march(vec3 p, vec3 v) {";
+    if (tree_.root && gains(*tree_.root, 0.0f)) {
+        next_group_ = next_child_ = 0;
+        CodeLines body{names_};
+        const March result = march(*tree_.root, "p", "v", 0.0f, body);
+        take_functions(all);
+        all.add(scene);
+        all.append(body);
+        all.add(fmt::format("    return {};", result.value));
+    } else {
+        all.add(scene);
+        all.add("    return vec2(scene_distance(p));");
+    }
+    all.add("}");
+    return all;
+}
+
+void MarchWriter::take_functions(CodeLines& out) {
+    out.append(functions_);
+    functions_.text.clear(), functions_.key.clear(), functions_.nodes.clear();
+}
+
+bool MarchWriter::is_live_below(const FieldNode& n) const {
+    return block_.is_live(n) || block_.is_derived_live(n) ||
+           (n.kind->role == Role::instance && is_live_below(tree_.definitions[n.definition])) ||
+           std::any_of(n.children.begin(), n.children.end(), [&](const FieldNode& c) { return is_live_below(c); });
+}
+
+bool MarchWriter::has_box(const FieldNode& n, float level) const {
+    return n.extent.box.is_bounded() && (level == 0.0f || n.kind->role == Role::primitive) && !is_live_below(n);
+}
+
+float MarchWriter::level_of_children(const FieldNode& n, float level) const {
+    const float count = static_cast<float>(std::max<std::size_t>(n.children.size(), 2) - 1);
+    const float reach = n.kind->reach ? n.kind->reach(n.values) * (n.kind->role == Role::combine ? count : 1.0f) : 0.0f;
+    return level / n.scale + reach;
+}
+
+bool MarchWriter::gains(const FieldNode& n, float level) const {
+    const KindInfo& kind = *n.kind;
+    // A live number may change under the code: no level may depend on it.
+    if (block_.is_live(n) && (level != 0.0f || kind.reach)) return false;
+    if (kind.role == Role::primitive) return kind.along || has_box(n, level);
+    if (kind.role == Role::instance) return level == 0.0f && definitions_gain_[n.definition];
+    const float below = level_of_children(n, level);
+    if (kind.role == Role::domain || kind.role == Role::repeat)
+        return has_box(n, level) || (is_straight(n) && any_child_gains(n, below));
+    if (kind.gather == Gather::first && gains(n.children[0], below)) return true;
+    if (kind.gather == Gather::first)
+        return takes_away(kind) && std::any_of(n.children.begin() + 1, n.children.end(),
+                                               [&](const FieldNode& c) { return knows_stay(c, below); });
+    return any_child_gains(n, below);
+}
+
+MarchWriter::March MarchWriter::march(const FieldNode& n, const std::string& p, const std::string& v, float level,
+                                      CodeLines& out) {
+    if (!gains(n, level)) return plain(n, p, v, level, out);
+    switch (n.kind->role) {
+        case Role::primitive:
+            return n.kind->along ? primitive(n, p, v, level) : plain(n, p, v, level, out);
+        case Role::instance: {
+            const Numbers own = numbers(n, p);
+            return {fmt::format("{}{}_march({}, {})", own.factor, CodeNames::of_definition(n.definition), own.point,
+                                direction(n, v))};
+        }
+        case Role::combine:
+        case Role::distance:
+            return group(n, p, v, level, out);
+        case Role::domain:
+        case Role::repeat:
+            break;
+    }
+    if (is_straight(n) && any_child_gains(n, level_of_children(n, level))) return moved(n, p, v, level, out);
+    return plain(n, p, v, level, out);
+}
+
+MarchWriter::March MarchWriter::plain(const FieldNode& n, const std::string& p, const std::string& v, float level,
+                                      CodeLines& out) {
+    const std::string d = node(n, p, out, indent).distance;
+    if (!has_box(n, level)) return {with_level(d, level)};
+    const Box& box = n.extent.box;
+    return {fmt::format("advance_in_box({}, {}, {} - {}, {}, {})", d, literal(level), p, literal(box.centre()), v,
+                        literal(0.5f * box.size()))};
+}
+
+std::string MarchWriter::tangent(const FieldNode& n, const std::string& p, const std::string& v) {
+    const Numbers own = numbers(n, p);
+    const std::string in_own = fmt::format("{}({}, {}{})", n.kind->along, own.point, direction(n, v), own.arguments);
+    // Scaled, the distance is longer and the slope the same.
+    return own.factor.empty() ? in_own
+                              : fmt::format("vec2({}, 1.0) * {}", own.factor.substr(0, own.factor.size() - 3), in_own);
+}
+
+MarchWriter::March MarchWriter::primitive(const FieldNode& n, const std::string& p, const std::string& v, float level) {
+    return {fmt::format("advance({}, {})", tangent(n, p, v), literal(level))};
+}
+
+bool MarchWriter::is_convex_pair(const FieldNode& n) const {
+    const auto is_convex = [](const FieldNode& c) { return c.kind->along != nullptr; };
+    return n.kind->kind == NodeKind::union_ && n.children.size() == 2 && n.values[0].x > 0.0f && !block_.is_live(n) &&
+           std::all_of(n.children.begin(), n.children.end(), is_convex);
+}
+
+std::pair<std::string, std::string> MarchWriter::own_ray(const FieldNode& n, const Numbers& num, int id,
+                                                         const std::string& p, const std::string& v, CodeLines& out) {
+    std::pair<std::string, std::string> ray(p, v);
+    if (num.point != p) {
+        ray.first = fmt::format("p{}", id);
+        out.add(fmt::format("{}vec3 {} = {};", indent, ray.first, num.point), n.id);
+    }
+    if (const std::string turned = direction(n, v); turned != v) {
+        ray.second = fmt::format("v{}", id);
+        out.add(fmt::format("{}vec3 {} = {};", indent, ray.second, turned), n.id);
+    }
+    return ray;
+}
+
+void MarchWriter::scale(const Numbers& num, const std::string& d, Id node, CodeLines& out) {
+    if (!num.factor.empty()) out.add(fmt::format("{}{} = {}{};", indent, d, num.factor, d), node);
+}
+
+void MarchWriter::fold(const FieldNode& n, const Numbers& num, const std::string& d, const std::string& p,
+                       const std::string& v, float below, CodeLines& out) {
+    const KindInfo& kind = *n.kind;
+    const bool combines = kind.role == Role::combine;
+    const bool hard = !combines || (num.hard && is_hard(kind));
+    const char* gather = combines && kind.gather == Gather::all ? "max" : "min";
+    for (const FieldNode& child : n.children) {
+        const bool first = &child == &n.children[0];
+        if (!first && !hard && kind.gather == Gather::first) {
+            const Result next = node(child, p, out, indent);
+            out.add(fmt::format("{}{}.x = {};", indent, d, combination(kind, num, d + ".x", next.distance)), child.id,
+                    next.named ? "" : comment(child));
+            if (takes_away(kind) && knows_stay(child, below))
+                out.add(fmt::format("{}{}.y = max({}.y, {});", indent, d, d, stay(child, p, v, below)), child.id);
+            continue;
+        }
+        const March next = march(child, p, v, below, out);
+        const std::string name = next.named || child.kind->takes_children() ? "" : comment(child);
+        if (first) {
+            out.add(fmt::format("{}vec2 {} = {};", indent, d, next.value), child.id, name);
+        } else if (hard) {
+            out.add(fmt::format("{}{} = {}({}, {});", indent, d, gather, d, next.value), child.id, name);
+        } else {
+            std::string e = next.value;
+            if (!next.named) {
+                e = fmt::format("e{}", next_child_++);
+                out.add(fmt::format("{}vec2 {} = {};", indent, e, next.value), child.id, name);
+            }
+            out.add(fmt::format("{}{} = vec2({}, {}({}.y, {}.y));", indent, d,
+                                combination(kind, num, d + ".x", e + ".x"), gather, d, e),
+                    child.id);
+        }
+    }
+}
+
+MarchWriter::March MarchWriter::group(const FieldNode& n, const std::string& p, const std::string& v, float level,
+                                      CodeLines& out) {
+    const KindInfo& kind = *n.kind;
+    const int id = next_group_++;
+    out.add(indent, n.id, comment(n));
+    const Numbers num = numbers(n, p);
+    const auto [own, turned] = own_ray(n, num, id, p, v, out);
+    const std::string d = fmt::format("d{}", id);
+    if (is_convex_pair(n)) {
+        out.add(fmt::format("{}vec2 {} = {};", indent, d, tangent(n.children[0], own, turned)), n.children[0].id,
+                comment(n.children[0]));
+        out.add(fmt::format("{}{} = smooth_union_advance({}, {}{}, {});", indent, d, d,
+                            tangent(n.children[1], own, turned), num.arguments, literal(level / n.scale)),
+                n.children[1].id, comment(n.children[1]));
+        scale(num, d, n.id, out);
+        return {d, true};
+    }
+    fold(n, num, d, own, turned, level_of_children(n, level), out);
+    if (kind.role == Role::distance)
+        out.add(fmt::format("{}{}.x = {}({}.x{});", indent, d, kind.function, d, num.arguments), n.id);
+    scale(num, d, n.id, out);
+    // A distance is always a way that is free.
+    if (kind.role == Role::distance || !num.hard || !is_hard(kind))
+        out.add(
+            fmt::format("{}{}.y = max({}.y, {}.x{});", indent, d, d, d, level == 0.0f ? "" : " - " + literal(level)),
+            n.id);
+    return {d, true};
+}
+
+MarchWriter::March MarchWriter::moved(const FieldNode& n, const std::string& p, const std::string& v, float level,
+                                      CodeLines& out) {
+    const KindInfo& kind = *n.kind;
+    const int id = next_group_++;
+    out.add(indent, n.id, comment(n));
+    const Numbers num = numbers(n, p);
+    const auto [own, turned] = own_ray(n, num, id, p, v, out);
+    const std::string args = num.arguments + num.derived, d = fmt::format("d{}", id);
+    const int cells = kind.role == Role::repeat ? kind.cells(n.values) : 1;
+    std::string along = turned;
+    if (kind.direction) {
+        along = fmt::format("u{}", id);
+        out.add(fmt::format("{}vec3 {} = {}({}, {}{});", indent, along, kind.direction, own, turned, num.arguments),
+                n.id);
+    }
+    const float below = level_of_children(n, level);
+    if (cells == 1) {
+        const std::string q = fmt::format("q{}", id);
+        out.add(fmt::format("{}vec3 {} = {}({}{}{});", indent, q, kind.function, own,
+                            kind.function_takes_derived ? args : num.arguments, kind.role == Role::repeat ? ", 0" : ""),
+                n.id);
+        fold(n, num, d, q, along, below, out);
+    } else {
+        const std::string content = fmt::format("march_of_copy{}", next_copy_++);
+        CodeLines body{names_};
+        fold(n, num, d, "p", "v", below, body);
+        const std::string region = fmt::format("{}, {}, {}", args, num.low, num.high);
+        if (n.guarded) body.add(fmt::format("{}{}.x = {}({}.x, p{});", indent, d, kind.guard_copy, d, region), n.id);
+        functions_.add(fmt::format("vec2 {}(vec3 p, vec3 v) {{", content), n.id, "one copy of " + comment(n));
+        functions_.append(body);
+        functions_.add(fmt::format("{}return {};", indent, d));
+        functions_.add("}");
+        functions_.add("");
+        out.add(fmt::format("{}vec2 {} = vec2({});", indent, d, literal(empty_distance)), n.id);
+        out.add(fmt::format("{}for (int cell = 0; cell < {}; ++cell) {} = min({}, {}({}({}{}, cell), {}));", indent,
+                            cells, d, d, content, kind.function, own, args, along),
+                n.id);
+        if (n.guarded)
+            out.add(fmt::format("{}{}.x = {}({}.x, {}{});", indent, d, kind.guard_nearest, d, own, region), n.id);
+    }
+    out.add(fmt::format("{}{}.y = min({}.y, {}({}, {}{}));", indent, d, d, kind.way, own, turned, args), n.id);
+    if (has_box(n, level)) {
+        const Box& box = n.region;
+        out.add(fmt::format("{}{}.y = max({}.y, advance(box_along({} - {}, {}, {}), 0.0).y);", indent, d, d, own,
+                            literal(box.centre()), turned, literal(0.5f * box.size())),
+                n.id);
+    }
+    scale(num, d, n.id, out);
+    out.add(fmt::format("{}{}.y = max({}.y, {}.x{});", indent, d, d, d, level == 0.0f ? "" : " - " + literal(level)),
+            n.id);
+    return {d, true};
+}
+
+bool MarchWriter::is_straight(const FieldNode& n) const {
+    return n.kind->way && !block_.is_live(n) && !block_.is_derived_live(n) && n.kind->straight(n.values);
+}
+
+bool MarchWriter::any_child_gains(const FieldNode& n, float below) const {
+    return std::any_of(n.children.begin(), n.children.end(), [&](const FieldNode& c) { return gains(c, below); });
+}
+
+bool MarchWriter::knows_stay(const FieldNode& n, float level) const {
+    if (block_.is_live(n) && level != 0.0f) return false;
+    if (n.kind->role == Role::primitive) return n.kind->within;
+    return n.kind->role == Role::combine && adds(*n.kind) &&
+           std::any_of(n.children.begin(), n.children.end(),
+                       [&](const FieldNode& c) { return knows_stay(c, level / n.scale); });
+}
+
+std::string MarchWriter::stay(const FieldNode& n, const std::string& p, const std::string& v, float level) {
+    const Numbers own = numbers(n, p);
+    const std::string turned = direction(n, v);
+    if (n.kind->role == Role::primitive)
+        return fmt::format("{}{}({}, {}, {}{})", own.factor, n.kind->within, own.point, turned,
+                           literal(level / n.scale), own.arguments);
+    std::string longest;
+    for (const FieldNode& child : n.children) {
+        if (!knows_stay(child, level / n.scale)) continue;
+        const std::string next = stay(child, "(" + own.point + ")", turned, level / n.scale);
+        longest = longest.empty() ? next : fmt::format("max({}, {})", longest, next);
+    }
+    return own.factor + longest;
+}
+
+std::string MarchWriter::direction(const FieldNode& n, const std::string& v) {
+    if (block_.is_live(n)) return fmt::format("turn({}, {})", v, block_.first(n));
+    return n.to_own == glm::mat3(1.0f) ? v : literal(n.to_own) + " * " + v;
+}
+
+}  // namespace farfield

@@ -1,0 +1,75 @@
+// The function that rays are traced by: vec2 scene_march(vec3 p, vec3 v), the distance at p and how far a ray along the
+// unit vector v gets at least before it meets something.
+//
+// A distance d lets a ray go on by d whatever its direction. Much more is known of convex shapes: the distance to one
+// is a convex function, and along a ray such a function stays above its tangent. From the slope s < 0 of the tangent
+// the ray may go on by d / -s, and without limit where s >= 0: Newton's method, which for convex functions never goes
+// too far and converges quadratically. A ray that leaves a wall leaves it for good; one that runs along a wall sees
+// that it never meets it. What counts is the first of the children of a union and the last of those of an intersection,
+// so each may go on by what it knows, and one that knows no more than its distance holds up the others only where it is
+// near. A blend reaches beyond its children: there they are asked for the level that it adds (KindInfo::reach and
+// gather, as for bounds). A ray within what is taken away stays free as long as it is there. What is bent, repeated or
+// custom knows its distance and, where it has an end, the box that holds it.
+//
+// In the Cornell room that takes 2.0 evaluations per ray in place of 21.8 of relaxed sphere tracing.
+#pragma once
+
+#include "sdf/code_writer.h"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace farfield {
+
+class MarchWriter : private CodeWriter {
+public:
+    /// To be written after the functions of the distance, which it calls.
+    MarchWriter(const FieldTree& tree, const CodeNames& names, ParameterBlock& block);
+
+    CodeLines write();
+
+private:
+    /// Whether more is known of the node than its distance, for a level in its parent's frame.
+    bool gains(const FieldNode& n, float level) const;
+    bool has_box(const FieldNode& n, float level) const;
+    bool is_live_below(const FieldNode& n) const;
+    float level_of_children(const FieldNode& n, float level) const;
+
+    /// Each gives an expression of both numbers, or the variable that holds them.
+    struct March {
+        std::string value;
+        bool named = false;
+    };
+    March march(const FieldNode& n, const std::string& p, const std::string& v, float level, CodeLines& out);
+    March plain(const FieldNode& n, const std::string& p, const std::string& v, float level, CodeLines& out);
+    /// Of a convex primitive: the distance and its slope.
+    std::string tangent(const FieldNode& n, const std::string& p, const std::string& v);
+    March primitive(const FieldNode& n, const std::string& p, const std::string& v, float level);
+    March group(const FieldNode& n, const std::string& p, const std::string& v, float level, CodeLines& out);
+    /// Two convex primitives in a smooth union.
+    bool is_convex_pair(const FieldNode& n) const;
+    /// What moves the ray in space and leaves it straight for a while.
+    March moved(const FieldNode& n, const std::string& p, const std::string& v, float level, CodeLines& out);
+    /// The children together, in the variable `d` that this declares.
+    void fold(const FieldNode& n, const Numbers& num, const std::string& d, const std::string& p, const std::string& v,
+              float below, CodeLines& out);
+    /// Point and direction in the node's own frame, as variables where they are others.
+    std::pair<std::string, std::string> own_ray(const FieldNode& n, const Numbers& num, int id, const std::string& p,
+                                                const std::string& v, CodeLines& out);
+    static void scale(const Numbers& num, const std::string& d, Id node, CodeLines& out);
+    /// The functions of copies that were written so far.
+    void take_functions(CodeLines& out);
+    bool any_child_gains(const FieldNode& n, float below) const;
+    bool is_straight(const FieldNode& n) const;
+
+    /// How long the ray stays where the node's distance is below -level; empty where nothing is known of that.
+    std::string stay(const FieldNode& n, const std::string& p, const std::string& v, float level);
+    bool knows_stay(const FieldNode& n, float level) const;
+
+    std::string direction(const FieldNode& n, const std::string& v);
+
+    std::vector<bool> definitions_gain_;
+};
+
+}  // namespace farfield
