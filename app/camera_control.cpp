@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
@@ -15,7 +16,7 @@ namespace {
 
 using glm::vec3;
 
-constexpr float nearest_distance = 1e-3f;
+constexpr float nearest_distance = 1e-3f, farthest_distance = 1e5f;
 constexpr float steepest = 89.5f;  // degrees above or below the horizon: straight up has no sideways
 
 vec3 rounded(vec3 v) {
@@ -23,25 +24,30 @@ vec3 rounded(vec3 v) {
     return {std::round(v.x * 1e4f) / 1e4f, std::round(v.y * 1e4f) / 1e4f, std::round(v.z * 1e4f) / 1e4f};
 }
 
+/// A turn about the vertical by angle.x and then about the camera's horizontal by angle.y, radians, so far that it
+/// never looks straight up or down.
+glm::mat3 turned(const Camera& camera, glm::vec2 angle) {
+    const CameraBasis basis(camera);
+    const float limit = glm::radians(steepest), now = std::asin(std::clamp(basis.forward.y, -1.0f, 1.0f));
+    const float pitch = std::clamp(now + angle.y, -limit, limit) - now;
+    const glm::mat4 whole = glm::rotate(glm::mat4(1.0f), angle.x, vec3(0.0f, 1.0f, 0.0f)) *
+                            glm::rotate(glm::mat4(1.0f), pitch, basis.right);
+    return glm::mat3(whole);
+}
+
 }  // namespace
 
-Camera orbited(const Camera& camera, glm::vec2 drag, float height) {
-    const vec3 offset = camera.position - camera.target;
-    const float distance = std::max(glm::length(offset), nearest_distance);
-    const float turn = glm::pi<float>() / std::max(height, 1.0f);
-    const float azimuth = std::atan2(offset.x, offset.z) - drag.x * turn;
-    const float limit = glm::radians(steepest);
-    const float elevation =
-        std::clamp(std::asin(std::clamp(offset.y / distance, -1.0f, 1.0f)) + drag.y * turn, -limit, limit);
+Camera orbited(const Camera& camera, vec3 pivot, glm::vec2 drag, float height) {
+    const glm::mat3 turn = turned(camera, -drag * (glm::pi<float>() / std::max(height, 1.0f)));
     Camera moved = camera;
-    moved.position = camera.target + distance * vec3(std::cos(elevation) * std::sin(azimuth), std::sin(elevation),
-                                                     std::cos(elevation) * std::cos(azimuth));
+    moved.position = pivot + turn * (camera.position - pivot);
+    moved.target = pivot + turn * (camera.target - pivot);
     return moved;
 }
 
-Camera panned(const Camera& camera, glm::vec2 drag, float height) {
+Camera panned(const Camera& camera, vec3 held, glm::vec2 drag, float height) {
     const CameraBasis basis(camera);
-    const float distance = std::max(glm::length(camera.target - camera.position), nearest_distance);
+    const float distance = std::max(glm::dot(held - camera.position, basis.forward), nearest_distance);
     const float scale = 2.0f * distance * basis.half_height / std::max(height, 1.0f);
     const vec3 shift = (-drag.x * basis.right + drag.y * basis.up) * scale;
     Camera moved = camera;
@@ -50,13 +56,29 @@ Camera panned(const Camera& camera, glm::vec2 drag, float height) {
     return moved;
 }
 
-Camera zoomed(const Camera& camera, float steps) {
-    const vec3 offset = camera.position - camera.target;
-    const float distance = glm::length(offset);
+Camera zoomed(const Camera& camera, vec3 about, float steps) {
+    const float distance = glm::length(camera.position - camera.target);
     if (distance <= 0.0f) return camera;
-    const float to = std::clamp(distance * std::pow(0.88f, steps), 10.0f * nearest_distance, 1e5f);
+    const float to = std::clamp(distance * std::pow(0.88f, steps), 10.0f * nearest_distance, farthest_distance);
     Camera moved = camera;
-    moved.position = camera.target + offset * (to / distance);
+    moved.position = about + (camera.position - about) * (to / distance);
+    moved.target = about + (camera.target - about) * (to / distance);
+    return moved;
+}
+
+Camera flown(const Camera& camera, vec3 move, glm::vec2 drag, float height) {
+    const CameraBasis basis(camera);
+    const glm::mat3 turn = turned(camera, -drag * (glm::half_pi<float>() / std::max(height, 1.0f)));
+    Camera moved = camera;
+    moved.position += turn * (move.x * basis.right + move.z * basis.forward) + vec3(0.0f, move.y, 0.0f);
+    moved.target = moved.position + turn * (camera.target - camera.position);
+    return moved;
+}
+
+Camera looking(const Camera& camera, vec3 direction) {
+    const float distance = std::max(glm::length(camera.target - camera.position), 10.0f * nearest_distance);
+    Camera moved = camera;
+    moved.position = camera.target - distance * direction;
     return moved;
 }
 

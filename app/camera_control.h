@@ -10,12 +10,21 @@
 
 namespace farfield {
 
-/// Around the target; half a turn for a drag of `height` pixels.
-Camera orbited(const Camera& camera, glm::vec2 drag, float height);
-/// Sideways and up or down, so that what is at the target's distance stays under the mouse.
-Camera panned(const Camera& camera, glm::vec2 drag, float height);
-/// Towards the target for positive steps of the wheel.
-Camera zoomed(const Camera& camera, float steps);
+/// Around a point of the world, which keeps its place in the picture; position and target turn together. Half a turn
+/// for a drag of `height` pixels.
+Camera orbited(const Camera& camera, glm::vec3 pivot, glm::vec2 drag, float height);
+/// Sideways and up or down, so that `held` stays under the mouse.
+Camera panned(const Camera& camera, glm::vec3 held, glm::vec2 drag, float height);
+/// Towards `about` for positive steps of the wheel; it keeps its place in the picture, and position and target come
+/// nearer to it alike.
+Camera zoomed(const Camera& camera, glm::vec3 about, float steps);
+
+/// Moves by metres to the right, up and forward, and turns the eyes by a drag of the mouse, a quarter turn for `height`
+/// pixels.
+Camera flown(const Camera& camera, glm::vec3 move, glm::vec2 drag, float height);
+
+/// Looks at the target from as far as before, along `direction` (unit length).
+Camera looking(const Camera& camera, glm::vec3 direction);
 
 /// In the same direction, so near that the box fills about 70 % of the picture's height, or of its width where that is
 /// narrower than the box; aimed at its middle. `aspect`: width / height of the picture.

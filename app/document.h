@@ -28,6 +28,7 @@ public:
     Id apply(const Edit& edit, unsigned gesture);
     const CodeTrust& trust() const { return trust_; }
     void accept(const CustomCode& code) { trust_.accept(code); }
+    void cancel(unsigned gesture) { history_.cancel(gesture); }
     void undo() { history_.undo(); }
     void redo() { history_.redo(); }
 

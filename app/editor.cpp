@@ -69,7 +69,7 @@ public:
             const bool news = look_for_picture();
             if (first && picture_.texture != 0) redraws = settling_frames;
             const bool measured = measuring_.refresh(document_.scene(), document_.revision());
-            if (news || measured || ui_.audit.finished() || redraws > 0 || attentive) frame();
+            if (news || measured || ui_.audit.finished() || layout_.news() || redraws > 0 || attentive) frame();
             if (redraws > 0) --redraws;
             write_report();
         }
@@ -108,10 +108,12 @@ private:
 
         const glm::vec2 size(window_.size());
         ui_.trust = &trust_;
-        const LayoutResult result = layout_.draw(ui_, {size.x, size.y}, document_, picture_, files_.error(),
+        const ViewportInput input{document_.snapshot(), std::exchange(escape_, false), flight()};
+        const LayoutResult result = layout_.draw(ui_, {size.x, size.y}, document_, input, picture_, files_.error(),
                                                  measuring_.results(), [&](CommandId id) { return enabled(id); });
         ui_.hand_in = false;
         carry_out(result.edits, gesture_);
+        if (result.viewport.cancel) document_.cancel(gesture_);
         carry_out_camera(result.viewport);
         if (const auto code = std::exchange(ui_.run, nullptr)) document_.accept(*code);
         if (std::exchange(save_, false)) files_.save();
@@ -128,6 +130,14 @@ private:
         window_.set_title(fmt::format("{}{} - Farfield", document_.saved() ? "" : "* ", document_.name()));
         window_.end_frame();
         submit(result.viewport.size);
+    }
+
+    /// Keys that fly while the mouse holds the picture.
+    glm::vec3 flight() const {
+        const auto axis = [&](int forth, int back) {
+            return (window_.is_down(forth) ? 1.0f : 0.0f) - (window_.is_down(back) ? 1.0f : 0.0f);
+        };
+        return {axis('D', 'A'), axis('E', 'Q'), axis('W', 'S')};
     }
 
     /// A field that was given the keyboard has it in the frame after the next.
@@ -147,7 +157,8 @@ private:
     void submit(glm::vec2 picture_size) {
         // While a splitter moves, the old picture is stretched.
         const bool splitting = held_ && !gesture_edited_;
-        if (size_.x == 0 || !splitting) size_ = glm::max(glm::ivec2(picture_size * window_.pixels_per_unit()), 1);
+        const glm::vec2 pixels = picture_size * window_.pixels_per_unit() / static_cast<float>(ui_.tools.divisor);
+        if (size_.x == 0 || !splitting) size_ = glm::max(glm::ivec2(pixels), 1);
         const Id tuned = ui_.selection.type == ObjectType::node ? ui_.selection.id : 0;
         // What is measured is the processor's time: the picture rests as soon as it shows what there is.
         const int frames = measuring_.results().running ? 1 : frames_until_rest;
@@ -235,6 +246,9 @@ private:
 
     void perform(CommandId id) {
         const Scene& scene = document_.scene();
+        if (choose_tool(ui_.tools, id)) return;
+        if (const glm::vec3 direction = view_direction(id); direction != glm::vec3(0.0f))
+            return carry_out(camera_edits(scene.camera, looking(scene.camera, direction)), ++last_gesture_);
         switch (id) {
             case CommandId::create:
                 files_.create();
@@ -304,6 +318,8 @@ private:
             case CommandId::shortcuts:
                 ui_.show_shortcuts = !ui_.show_shortcuts;
                 break;
+            default:
+                break;
         }
     }
 
@@ -323,6 +339,7 @@ private:
             // While something is typed or held, or a popup is open, keys belong to that; but saving never has to wait.
             const auto command = command_for(press);
             const bool busy = ImGui::GetIO().WantTextInput || (held_ && ImGui::IsAnyMouseDown());
+            escape_ |= press.key == escape_key && held_;
             if (asked || (busy && command != CommandId::save)) continue;
             if (command == CommandId::save && ImGui::GetIO().WantTextInput) {
                 ImGui::ClearActiveID();  // what is being typed belongs to what is saved
@@ -393,6 +410,7 @@ private:
     bool gesture_edited_ = false;  ///< and has changed the document
     bool gesture_moves_ = false;   ///< and more of it than settings
     bool interacting_ = false;
+    bool escape_ = false;  ///< was pressed while something is held
     glm::ivec2 size_{0};
     std::tuple<std::uint64_t, std::size_t, int, int, View, Id, bool, int> submitted_{};
     std::uint64_t shown_document_ = 0;  ///< its generation

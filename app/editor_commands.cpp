@@ -38,22 +38,37 @@ constexpr Command commands[] = {
     {CommandId::move_down, "Edit", "move_down", "Move down", GLFW_KEY_DOWN, alt, "Alt+Down"},
     {CommandId::make_definition, "Edit", "make_definition", "Make definition", 'I', ctrl, "Ctrl+I", true},
     {CommandId::make_independent, "Edit", "make_independent", "Make independent", 'I', ctrl | shift, "Ctrl+Shift+I"},
+    {CommandId::select, "Tools", "select", "Select alone", 'Q', plain, "Q"},
+    {CommandId::move, "Tools", "move", "Move", 'W', plain, "W"},
+    {CommandId::rotate, "Tools", "rotate", "Rotate", 'E', plain, "E"},
+    {CommandId::scale, "Tools", "scale", "Scale", 'R', plain, "R"},
+    {CommandId::axes, "Tools", "axes", "Local axes", 'X', plain, "X", true},
+    {CommandId::lights, "Tools", "lights", "Signs of lights", 'L', plain, "L", true},
+    {CommandId::grid, "Tools", "grid", "Grid and axes", 'G', plain, "G"},
     {CommandId::frame_selection, "View", "frame_selection", "Frame selection", 'F', plain, "F", true},
     {CommandId::frame_all, "View", "frame_all", "Frame all", GLFW_KEY_HOME, plain, "Home, Shift+F"},
     {CommandId::reset_camera, "View", "reset_camera", "Reset camera", GLFW_KEY_HOME, shift, "Shift+Home"},
+    {CommandId::front, "View", "front", "From the front", GLFW_KEY_KP_1, plain, "Numpad 1", true},
+    {CommandId::back, "View", "back", "From the back", GLFW_KEY_KP_1, ctrl, "Ctrl+Numpad 1"},
+    {CommandId::right, "View", "right", "From the right", GLFW_KEY_KP_3, plain, "Numpad 3"},
+    {CommandId::left, "View", "left", "From the left", GLFW_KEY_KP_3, ctrl, "Ctrl+Numpad 3"},
+    {CommandId::top, "View", "top", "From above", GLFW_KEY_KP_7, plain, "Numpad 7"},
+    {CommandId::bottom, "View", "bottom", "From below", GLFW_KEY_KP_7, ctrl, "Ctrl+Numpad 7"},
     {CommandId::statistics, "View", "statistics", "Statistics", GLFW_KEY_F3, plain, "F3", true},
     {CommandId::code, "View", "code", "Code", GLFW_KEY_F4, plain, "F4"},
     {CommandId::measure, "View", "measure", "Speed and accuracy", GLFW_KEY_F6, plain, "F6"},
     {CommandId::shortcuts, "Help", "shortcuts", "Keys and mouse", GLFW_KEY_F1, plain, "F1"},
 };
 
-constexpr const char* menus[] = {"File", "Edit", "View", "Help"};
+constexpr const char* menus[] = {"File", "Edit", "View", "Tools", "Help"};
 
 constexpr std::pair<const char*, const char*> mouse[] = {
     {"Click in the picture", "Select the shape, then the groups around it"},
-    {"Left drag on the picture", "Orbit"},
+    {"Left drag on the picture", "Orbit around what is under the mouse"},
     {"Middle drag, Shift + left drag", "Pan"},
-    {"Wheel", "Zoom"},
+    {"Wheel", "Zoom to what is under the mouse"},
+    {"Right drag with W A S D, Q E", "Fly; the wheel sets the speed"},
+    {"Drag a handle", "Move, turn or scale; Ctrl in steps, Escape back"},
     {"Drag a number", "Change it; Shift finer, Ctrl coarser"},
     {"Double-click or Ctrl-click a number", "Type it"},
     {"Right-click a value", "Back to its default"},
@@ -65,7 +80,12 @@ constexpr std::pair<const char*, const char*> mouse[] = {
 
 bool is_on(const Ui& ui, CommandId id) {
     return (id == CommandId::statistics && ui.show_statistics) || (id == CommandId::code && ui.show_code) ||
-           (id == CommandId::measure && ui.show_measure) || (id == CommandId::shortcuts && ui.show_shortcuts);
+           (id == CommandId::measure && ui.show_measure) || (id == CommandId::select && ui.tools.tool == Tool::none) ||
+           (id == CommandId::move && ui.tools.tool == Tool::move) ||
+           (id == CommandId::rotate && ui.tools.tool == Tool::rotate) ||
+           (id == CommandId::scale && ui.tools.tool == Tool::scale) ||
+           (id == CommandId::axes && ui.tools.axes == Axes::local) || (id == CommandId::lights && ui.tools.lights) ||
+           (id == CommandId::grid && ui.tools.grid) || (id == CommandId::shortcuts && ui.show_shortcuts);
 }
 
 void view_entries(Ui& ui) {
@@ -118,6 +138,53 @@ std::optional<View> view_for(const KeyPress& press) {
     if (press.ctrl || press.alt || press.shift || index < 0 || index >= static_cast<int>(views().size()))
         return std::nullopt;
     return views()[static_cast<std::size_t>(index)].view;
+}
+
+bool choose_tool(PictureTools& tools, CommandId id) {
+    switch (id) {
+        case CommandId::select:
+            tools.tool = Tool::none;
+            return true;
+        case CommandId::move:
+            tools.tool = Tool::move;
+            return true;
+        case CommandId::rotate:
+            tools.tool = Tool::rotate;
+            return true;
+        case CommandId::scale:
+            tools.tool = Tool::scale;
+            return true;
+        case CommandId::axes:
+            tools.axes = tools.axes == Axes::local ? Axes::world : Axes::local;
+            return true;
+        case CommandId::lights:
+            tools.lights = !tools.lights;
+            return true;
+        case CommandId::grid:
+            tools.grid = !tools.grid;
+            return true;
+        default:
+            return false;
+    }
+}
+
+glm::vec3 view_direction(CommandId id) {
+    switch (id) {
+        case CommandId::front:
+            return {0.0f, 0.0f, -1.0f};
+        case CommandId::back:
+            return {0.0f, 0.0f, 1.0f};
+        case CommandId::right:
+            return {-1.0f, 0.0f, 0.0f};
+        case CommandId::left:
+            return {1.0f, 0.0f, 0.0f};
+        case CommandId::top:
+            return {0.0f, -1.0f, 0.0f};
+        case CommandId::bottom:
+            return {0.0f, 1.0f, 0.0f};
+        default:
+            return {};
+    }
 }
 
 std::optional<CommandId> command_menus(Ui& ui, const std::function<bool(CommandId)>& enabled) {

@@ -4,6 +4,8 @@
 #include "app/window.h"
 #include "ui/ui.h"
 
+#include <glm/vec3.hpp>
+
 #include <functional>
 #include <optional>
 
@@ -28,6 +30,19 @@ enum class CommandId {
     frame_selection,
     frame_all,
     reset_camera,
+    front,
+    back,
+    right,
+    left,
+    top,
+    bottom,
+    select,
+    move,
+    rotate,
+    scale,
+    axes,
+    lights,
+    grid,
     code,
     measure,
     statistics,
@@ -38,6 +53,12 @@ enum class CommandId {
 std::optional<CommandId> command_for(const KeyPress& press);
 /// The view on a number key, if any.
 std::optional<View> view_for(const KeyPress& press);
+
+/// What a command of the menu Tools makes of the tools; false for other commands.
+bool choose_tool(PictureTools& tools, CommandId id);
+
+/// The way that one of the standard views looks; nothing for other commands.
+glm::vec3 view_direction(CommandId id);
 
 /// Draws the menus inside an open menu bar. `enabled` says what can be done now.
 std::optional<CommandId> command_menus(Ui& ui, const std::function<bool(CommandId)>& enabled);

@@ -107,8 +107,8 @@ Layout::Layout(const Theme& theme)
       code_width_(theme.px(660.0f)),
       code_height_(theme.px(330.0f)) {}
 
-void Layout::draw_panels(Ui& ui, ImVec2 low, ImVec2 size, const Document& document, const RenderedPicture& picture,
-                         const std::string& message, LayoutResult& result) {
+void Layout::draw_panels(Ui& ui, ImVec2 low, ImVec2 size, const Document& document, const ViewportInput& input,
+                         const RenderedPicture& picture, const std::string& message, LayoutResult& result) {
     const Scene& scene = document.scene();
     const float bar = ui.theme.px(5.0f), least = ui.theme.px(110.0f);
     const float columns = size.x - 2.0f * bar, rows = size.y - bar;
@@ -122,7 +122,8 @@ void Layout::draw_panels(Ui& ui, ImVec2 low, ImVec2 size, const Document& docume
     panel("tree", low, {left, tree_height}, [&] { append(result.edits, tree_panel(ui, scene)); });
     panel("objects", {low.x, low.y + tree_height + bar}, {left, objects},
           [&] { append(result.edits, objects_panel(ui, scene)); });
-    draw_middle(ui, {low.x + left + bar, low.y}, {columns - left - right, size.y}, document, picture, message, result);
+    draw_middle(ui, {low.x + left + bar, low.y}, {columns - left - right, size.y}, document, input, picture, message,
+                result);
     panel("inspector", {right_x, low.y}, {right, inspector_height},
           [&] { append(result.edits, inspector_panel(ui, scene)); });
     panel("settings", {right_x, low.y + inspector_height + bar}, {right, settings},
@@ -134,8 +135,8 @@ void Layout::draw_panels(Ui& ui, ImVec2 low, ImVec2 size, const Document& docume
     split(ui, "settings", {right_x, low.y + inspector_height}, {right, bar}, settings, -1.0f, settings_);
 }
 
-void Layout::draw_middle(Ui& ui, ImVec2 low, ImVec2 size, const Document& document, const RenderedPicture& picture,
-                         const std::string& message, LayoutResult& result) {
+void Layout::draw_middle(Ui& ui, ImVec2 low, ImVec2 size, const Document& document, const ViewportInput& input,
+                         const RenderedPicture& picture, const std::string& message, LayoutResult& result) {
     ImVec2 room = size;
     if (ui.show_code) {
         // Beside the picture where both can be wide, otherwise below it: a line of code has some ninety characters.
@@ -156,11 +157,12 @@ void Layout::draw_middle(Ui& ui, ImVec2 low, ImVec2 size, const Document& docume
     // A message about the document can be put away; one about the picture stays as long as it is true.
     const float covered = message.empty() ? message_bar(ui, low, room.x, picture.error, false, result.dismissed)
                                           : message_bar(ui, low, room.x, message, true, result.dismissed);
-    panel("viewport", low, room, [&] { result.viewport = viewport(ui, document.scene(), picture, covered); });
+    panel("viewport", low, room,
+          [&] { result.viewport = viewport_.draw(ui, document.scene(), input, picture, covered); });
 }
 
-LayoutResult Layout::draw(Ui& ui, ImVec2 size, const Document& document, const RenderedPicture& picture,
-                          const std::string& message, const MeasureResults& measured,
+LayoutResult Layout::draw(Ui& ui, ImVec2 size, const Document& document, const ViewportInput& input,
+                          const RenderedPicture& picture, const std::string& message, const MeasureResults& measured,
                           const std::function<bool(CommandId)>& enabled) {
     LayoutResult result;
     ImGui::SetNextWindowPos({0.0f, 0.0f});
@@ -178,7 +180,7 @@ LayoutResult Layout::draw(Ui& ui, ImVec2 size, const Document& document, const R
     }
     const ImVec2 low{0.0f, ImGui::GetFrameHeight()};
     const float status = ui.theme.px(22.0f);
-    draw_panels(ui, low, {size.x, std::max(size.y - low.y - status, 1.0f)}, document, picture, message, result);
+    draw_panels(ui, low, {size.x, std::max(size.y - low.y - status, 1.0f)}, document, input, picture, message, result);
     status_line(ui, {0.0f, size.y - status}, {size.x, status}, document, picture);
     ImGui::End();
     append(result.edits, measure_panel(ui, document.scene(), measured, result.measure));

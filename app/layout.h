@@ -25,22 +25,25 @@ public:
     explicit Layout(const Theme& theme);
 
     /// Draws the whole window of `size`. `message`: something that went wrong, empty for nothing.
-    LayoutResult draw(Ui& ui, ImVec2 size, const Document& document, const RenderedPicture& picture,
-                      const std::string& message, const MeasureResults& measured,
+    LayoutResult draw(Ui& ui, ImVec2 size, const Document& document, const ViewportInput& input,
+                      const RenderedPicture& picture, const std::string& message, const MeasureResults& measured,
                       const std::function<bool(CommandId)>& enabled);
 
     const CodePanel& code() const { return code_; }
+    /// Whether there is something new to draw that no input asked for.
+    bool news() const { return viewport_.news(); }
     /// Another document is shown: what was typed and not handed in belongs to the old one.
     void forget() { code_.forget(); }
 
 private:
-    void draw_panels(Ui& ui, ImVec2 low, ImVec2 size, const Document& document, const RenderedPicture& picture,
-                     const std::string& message, LayoutResult& result);
+    void draw_panels(Ui& ui, ImVec2 low, ImVec2 size, const Document& document, const ViewportInput& input,
+                     const RenderedPicture& picture, const std::string& message, LayoutResult& result);
     /// The picture, and the code where it is shown.
-    void draw_middle(Ui& ui, ImVec2 low, ImVec2 size, const Document& document, const RenderedPicture& picture,
-                     const std::string& message, LayoutResult& result);
+    void draw_middle(Ui& ui, ImVec2 low, ImVec2 size, const Document& document, const ViewportInput& input,
+                     const RenderedPicture& picture, const std::string& message, LayoutResult& result);
 
     CodePanel code_;
+    Viewport viewport_;
     // What the user chose; a small window may have no room for it.
     float left_, right_;        ///< widths of the columns
     float objects_, settings_;  ///< heights of their lower panels

@@ -1,8 +1,12 @@
 #include "app/viewport.h"
 
 #include "app/camera_control.h"
+#include "app/light_handles.h"
+#include "app/picture_toolbar.h"
 #include "sdf/pick.h"
 #include "ui/statistics_panel.h"
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <cstdint>
@@ -10,39 +14,42 @@
 namespace farfield {
 namespace {
 
-void centred_text(const Ui& ui, ImVec2 low, ImVec2 high, float line, const char* text, ImU32 color) {
+void label(const Ui& ui, ImVec2 at, const char* text, ImU32 color) {
     const ImVec2 size = ImGui::CalcTextSize(text);
-    const ImVec2 at{std::floor((low.x + high.x - size.x) * 0.5f),
-                    std::floor((low.y + high.y - size.y) * 0.5f + line * size.y * 1.5f)};
-    ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float pad = ui.theme.px(8.0f);
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
     draw.AddRectFilled({at.x - pad, at.y - pad * 0.5f}, {at.x + size.x + pad, at.y + size.y + pad * 0.5f},
                        ui.theme.overlay, pad * 0.5f);
     draw.AddText(at, color, text);
 }
 
-Edits move_camera(const Scene& scene, float height, bool& wheel) {
-    const ImGuiIO& io = ImGui::GetIO();
-    const glm::vec2 drag(io.MouseDelta.x, io.MouseDelta.y);
-    Camera camera = scene.camera;
-    if (ImGui::IsItemActive() && drag != glm::vec2(0.0f)) {
-        const bool pan = ImGui::IsMouseDown(ImGuiMouseButton_Middle) || io.KeyShift;
-        camera = pan ? panned(camera, drag, height) : orbited(camera, drag, height);
-    }
-    if (ImGui::IsItemHovered() && io.MouseWheel != 0.0f) {
-        camera = zoomed(camera, io.MouseWheel);
-        wheel = true;
-    }
-    return camera_edits(scene.camera, camera);
+void centred_text(const Ui& ui, ImVec2 low, ImVec2 high, float line, const char* text, ImU32 color) {
+    const ImVec2 size = ImGui::CalcTextSize(text);
+    label(ui,
+          {std::floor((low.x + high.x - size.x) * 0.5f),
+           std::floor((low.y + high.y - size.y) * 0.5f + line * size.y * 1.5f)},
+          text, color);
+}
+
+glm::vec2 mouse() { return {ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y}; }
+
+/// What a hand has hold of there: the surface under the mouse. Where there is none, or it is so far off that a hand
+/// would throw the camera, the point at the target's distance.
+glm::vec3 grasped(const Scene& shown, const PictureView& view) {
+    const Camera& camera = shown.camera;
+    const float distance = glm::distance(camera.target, camera.position);
+    const Ray ray = view.ray(mouse());
+    const auto hit = pick(FieldEvaluator(shown), ray.origin, ray.direction, 1e-3f);
+    if (hit && hit->distance < 10.0f * distance) return hit->position;
+    const float along = glm::dot(ray.direction, view.basis.forward);
+    return camera.position + ray.direction * (distance / std::max(along, 1e-3f));
 }
 
 /// The shape under the mouse, the scene where there is none; the group around what is selected already, so that further
 /// clicks go up the tree.
-Id node_under_mouse(const Ui& ui, const Scene& scene, ImVec2 low, ImVec2 size) {
-    const ImVec2 mouse = ImGui::GetIO().MousePos;
-    const glm::vec2 at((mouse.x - low.x) / size.x, (mouse.y - low.y) / size.y);
-    const glm::vec3 direction = CameraBasis(scene.camera).direction(at, size.x / size.y);
-    const std::optional<Pick> hit = pick(FieldEvaluator(scene), scene.camera.position, direction);
+Id node_under_mouse(const Ui& ui, const Scene& scene, const PictureView& view) {
+    const Ray ray = view.ray(mouse());
+    const std::optional<Pick> hit = pick(FieldEvaluator(scene), ray.origin, ray.direction);
     if (!hit) return scene.root.id;
     if (ui.selection.type == ObjectType::node)
         for (const Node* node = find_node(scene, hit->node); node; node = find_parent(scene, node->id))
@@ -50,26 +57,128 @@ Id node_under_mouse(const Ui& ui, const Scene& scene, ImVec2 low, ImVec2 size) {
     return hit->node;
 }
 
+/// The point that the camera turns about or that is held.
+void draw_pivot(const Ui& ui, const PictureView& view, glm::vec3 pivot) {
+    const auto at = view.project(pivot);
+    if (!at) return;
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddCircleFilled({at->x, at->y}, ui.theme.px(4.5f), IM_COL32(10, 11, 13, 170));
+    draw.AddCircleFilled({at->x, at->y}, ui.theme.px(3.0f), ui.theme.text);
+}
+
 }  // namespace
 
-ViewportResult viewport(Ui& ui, const Scene& scene, const RenderedPicture& picture, float covered) {
+void Viewport::press(const Scene& scene, const ViewportInput& input, const PictureView& view) {
+    camera_ = scene.camera;
+    dragged_ = false;
+    if (ImGui::IsMouseClicked(ImGuiMouseButton_Right)) {
+        hold_ = Hold::fly;
+        flight_scale_ = std::clamp(glm::distance(camera_.position, camera_.target), 0.05f, 1e4f);
+    } else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && gizmo_.hovered() && !ImGui::GetIO().KeyShift) {
+        hold_ = Hold::gizmo;
+        gizmo_.begin(scene, view, mouse());
+    } else {
+        const bool pan = ImGui::IsMouseDown(ImGuiMouseButton_Middle) || ImGui::GetIO().KeyShift;
+        hold_ = pan ? Hold::pan : Hold::orbit;
+        pivot_ = grasped(*input.shown, view);
+    }
+}
+
+/// What the mouse does while it is held.
+void Viewport::follow(const Scene& scene, const ViewportInput& input, const PictureView& view, ViewportResult& result) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const int button = hold_ == Hold::fly                          ? ImGuiMouseButton_Right
+                       : ImGui::IsMouseDown(ImGuiMouseButton_Left) ? ImGuiMouseButton_Left
+                                                                   : ImGuiMouseButton_Middle;
+    if (io.MouseDragMaxDistanceSqr[button] >= 9.0f) dragged_ = true;
+    if (input.escape) {
+        result.cancel = hold_ != Hold::cancelled;
+        hold_ = Hold::cancelled;
+        gizmo_.end();
+        return;
+    }
+    const glm::vec2 drag(io.MouseDelta.x, io.MouseDelta.y);
+    if (hold_ == Hold::gizmo) {
+        if (dragged_) result.edits = gizmo_.drag(scene, mouse());
+        return;
+    }
+    if (hold_ == Hold::fly) {
+        flight_speed_ = std::clamp(flight_speed_ * std::pow(1.25f, io.MouseWheel), 1e-3f, 1e3f);
+        const float seconds = std::min(io.DeltaTime, 0.1f);
+        const glm::vec3 move = input.fly * (flight_speed_ * flight_scale_ * seconds);
+        if (move != glm::vec3(0.0f) || (dragged_ && drag != glm::vec2(0.0f)))
+            camera_ = flown(camera_, move, dragged_ ? drag : glm::vec2(0.0f), view.size.y);
+    } else if (dragged_ && drag != glm::vec2(0.0f)) {
+        if (hold_ == Hold::orbit) camera_ = orbited(camera_, pivot_, drag, view.size.y);
+        if (hold_ == Hold::pan) camera_ = panned(camera_, pivot_, drag, view.size.y);
+    }
+    if (hold_ != Hold::cancelled) result.edits = camera_edits(scene.camera, camera_);
+}
+
+void Viewport::click(Ui& ui, const ViewportInput& input, const PictureView& view) const {
+    if (hovered_light_ != 0)
+        ui.selection = {ObjectType::light, ui.reveal = hovered_light_};
+    else
+        ui.selection = {ObjectType::node, ui.reveal = node_under_mouse(ui, *input.shown, view)};
+}
+
+ViewportResult Viewport::draw(Ui& ui, const Scene& scene, const ViewportInput& input, const RenderedPicture& picture,
+                              float covered) {
     const ImVec2 low = ImGui::GetCursorScreenPos();
     ImVec2 size = ImGui::GetContentRegionAvail();
     size = {std::floor(std::max(size.x, 16.0f)), std::floor(std::max(size.y, 16.0f))};
     const ImVec2 high{low.x + size.x, low.y + size.y};
+    const PictureView view(scene.camera, {low.x, low.y}, {size.x, size.y});
+    const float margin = ui.theme.px(8.0f);
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
     ViewportResult result;
     result.size = {size.x, size.y};
 
+    // The tools come before the picture, so that the mouse is theirs where they are, and are drawn after it.
+    draw.ChannelsSplit(2);
+    draw.ChannelsSetCurrent(1);
+    const float bar = picture_toolbar(ui, {low.x + margin, low.y + covered + margin});
+    draw.ChannelsSetCurrent(0);
+
     // Row 0 of the texture is the top of the picture, as ImGui has it.
+    ImGui::SetCursorScreenPos(low);
     if (picture.texture != 0) ImGui::Image((ImTextureID) static_cast<std::intptr_t>(picture.texture), size);
     ImGui::SetCursorScreenPos(low);
-    ImGui::InvisibleButton("picture", size, ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle);
+    ImGui::InvisibleButton(
+        "picture", size,
+        ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
     ui.report.item("viewport", "");
-    result.edits = move_camera(scene, size.y, result.wheel);
-    const float moved = ImGui::GetIO().MouseDragMaxDistanceSqr[ImGuiMouseButton_Left];
-    if (ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && moved < 9.0f)
-        ui.selection = {ObjectType::node, ui.reveal = node_under_mouse(ui, scene, low, size)};
-    if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_Arrow);
+    const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
+    const std::vector<LightSign> lights = light_signs(ui, scene, view);
+    if (!active) {
+        gizmo_.end();
+        hovered_light_ = hovered ? light_at(ui, lights, mouse()) : 0;
+    }
+    gizmo_.refresh(ui, scene, view, hovered && !active);
+    if (ImGui::IsItemActivated()) {
+        gizmo_.refresh(ui, scene, view, true);
+        press(scene, input, view);
+    }
+    if (active) {
+        follow(scene, input, view, result);
+    } else if (hovered && ImGui::GetIO().MouseWheel != 0.0f) {
+        result.edits =
+            camera_edits(scene.camera, zoomed(scene.camera, grasped(*input.shown, view), ImGui::GetIO().MouseWheel));
+        result.wheel = true;
+    }
+    if (ImGui::IsItemDeactivated()) {
+        if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !dragged_ && hold_ != Hold::cancelled)
+            click(ui, input, view);
+        hold_ = Hold::nothing;
+    }
+    if (hovered && !active) ImGui::SetMouseCursor(ImGuiMouseCursor_Arrow);
+
+    draw.PushClipRect(low, high, true);
+    overlay_.draw(ui, input.shown, view);
+    draw_light_signs(ui, scene, lights, hovered_light_);
+    gizmo_.draw(ui, view);
+    if (dragged_ && (hold_ == Hold::orbit || hold_ == Hold::pan)) draw_pivot(ui, view, pivot_);
+    draw.PopClipRect();
 
     if (is_empty(scene, scene.root)) {
         centred_text(ui, low, high, -0.5f, "There is no shape in the scene yet", ui.theme.text);
@@ -77,19 +186,18 @@ ViewportResult viewport(Ui& ui, const Scene& scene, const RenderedPicture& pictu
     } else if (picture.texture == 0 && picture.error.empty()) {
         centred_text(ui, low, high, 0.0f, "Preparing the first picture...", ui.theme.text);
     }
-    const float margin = ui.theme.px(8.0f);
-    if (ui.view != View::result) {
-        const ViewInfo& view = views()[static_cast<std::size_t>(ui.view)];
-        const ImVec2 text = ImGui::CalcTextSize(view.label);
-        const ImVec2 at{low.x + 2.0f * margin, low.y + covered + 1.5f * margin};
-        ImDrawList& draw = *ImGui::GetWindowDrawList();
-        draw.AddRectFilled({at.x - margin, at.y - margin * 0.5f},
-                           {at.x + text.x + margin, at.y + text.y + margin * 0.5f}, ui.theme.overlay, margin * 0.5f);
-        draw.AddText(at, ui.theme.accent, view.label);
-    }
+    const ImVec2 below{low.x + 2.0f * margin, low.y + covered + bar + 2.5f * margin};
+    if (hold_ == Hold::fly)
+        label(ui, below,
+              fmt::format("{:.2g} m/s    W A S D, Q E: fly    Wheel: speed    Esc: back", flight_speed_ * flight_scale_)
+                  .c_str(),
+              ui.theme.accent);
+    else if (ui.view != View::result)
+        label(ui, below, views()[static_cast<std::size_t>(ui.view)].label, ui.theme.accent);
     if (ui.show_statistics && picture.texture != 0)
         statistics_overlay(ui, picture.statistics, {high.x - margin, low.y + covered + margin},
                            {size.x - 2.0f * margin, size.y - covered - 2.0f * margin});
+    draw.ChannelsMerge();
     return result;
 }
 

@@ -181,6 +181,8 @@ float Window::density() const {
     return x > 0.0f ? x : 1.0f;
 }
 
+bool Window::is_down(int key) const { return glfwGetKey(window_, key) == GLFW_PRESS; }
+
 bool Window::should_close() const { return glfwWindowShouldClose(window_); }
 void Window::keep_open() { glfwSetWindowShouldClose(window_, GLFW_FALSE); }
 

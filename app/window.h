@@ -39,6 +39,7 @@ public:
     bool should_close() const;
     void keep_open();  ///< answers a request to close with no
 
+    bool is_down(int key) const;                                 ///< one of GLFW's keys, by its place on the keyboard
     const std::vector<KeyPress>& keys() const { return keys_; }  ///< that went down before this frame
     std::vector<std::filesystem::path> take_dropped_files();
 

@@ -505,6 +505,12 @@ Id History::apply(const Edit& edit, unsigned gesture) {
     return id;
 }
 
+void History::cancel(unsigned gesture) {
+    if (gesture == 0 || current_ == 0 || current_ + 1 != steps_.size() || steps_[current_].gesture != gesture) return;
+    undo();
+    steps_.pop_back();
+}
+
 void History::replace(Scene scene) {
     steps_.clear();
     steps_.push_back({std::move(scene), "", 0, next_revision_++});

@@ -106,6 +106,8 @@ public:
     const Scene& scene() const;
     /// Edits that carry the same non-zero `gesture` (one drag of a slider) make one step.
     Id apply(const Edit& edit, unsigned gesture = 0);
+    /// Takes back what this gesture has done so far, without a trace.
+    void cancel(unsigned gesture);
     void replace(Scene scene);  ///< a new document: forgets all steps
     bool can_undo() const;
     bool can_redo() const;

@@ -1,5 +1,6 @@
 // What frames of the camera show, without a window.
 #include "app/camera_control.h"
+#include "sdf/pick.h"
 #include "sdf/scene_file.h"
 
 #include <glm/geometric.hpp>
@@ -80,6 +81,73 @@ TEST(FramedBox, IsOfTheObjectWithoutTheGroundAndNeverWithoutEnd) {
         const Scene empty = scene_of(nodes);
         EXPECT_TRUE(framed_box(empty, {ObjectType::node, empty.root.id}).is_bounded()) << nodes;
     }
+}
+
+/// Where a point is to the camera: right, up and forward.
+glm::vec3 seen(const Camera& camera, glm::vec3 p) {
+    const CameraBasis basis(camera);
+    const glm::vec3 o = p - camera.position;
+    return {glm::dot(o, basis.right), glm::dot(o, basis.up), glm::dot(o, basis.forward)};
+}
+
+TEST(OrbitedCamera, KeepsThePivotWhereItIsInThePictureAndTheTargetAsFarOff) {
+    Camera camera;
+    for (const glm::vec3 pivot : {glm::vec3(0.0f), glm::vec3(1, 0.3f, 2), glm::vec3(-2, 5, 0)}) {
+        const Camera moved = orbited(camera, pivot, {130.0f, -40.0f}, 600.0f);
+        EXPECT_LT(glm::distance(seen(moved, pivot), seen(camera, pivot)), 1e-4f);
+        EXPECT_NEAR(glm::distance(moved.position, moved.target), glm::distance(camera.position, camera.target), 1e-4f);
+        EXPECT_GT(glm::distance(moved.position, camera.position), 0.1f);
+    }
+    Camera above = orbited(camera, camera.target, {0.0f, 5000.0f}, 600.0f);
+    EXPECT_LT(CameraBasis(above).forward.y, -0.99f) << "as good as straight down";
+    EXPECT_GT(std::abs(CameraBasis(above).right.x) + std::abs(CameraBasis(above).right.z), 0.9f);
+    EXPECT_GT(glm::distance(above.position, orbited(above, above.target, {100.0f, 0.0f}, 600.0f).position), 1e-3f);
+}
+
+TEST(PannedCamera, KeepsWhatIsHeldUnderTheMouse) {
+    const Camera camera;
+    const glm::vec3 held(0.4f, 0.2f, 1.0f);
+    const glm::vec3 before = seen(camera, held), after = seen(panned(camera, held, {60.0f, -30.0f}, 600.0f), held);
+    const float pixel = 2.0f * before.z * CameraBasis(camera).half_height / 600.0f;
+    EXPECT_NEAR(after.x - before.x, 60.0f * pixel, 1e-4f);
+    EXPECT_NEAR(after.y - before.y, 30.0f * pixel, 1e-4f);
+}
+
+TEST(ZoomedCamera, ComesNearerToWhatIsUnderTheMouseWhichKeepsItsPlace) {
+    const Camera camera;
+    const glm::vec3 about(1.0f, 0.2f, 0.5f);
+    const Camera nearer = zoomed(camera, about, 3.0f);
+    const glm::vec3 before = seen(camera, about), after = seen(nearer, about);
+    EXPECT_LT(after.z, 0.75f * before.z);
+    EXPECT_NEAR(after.x / after.z, before.x / before.z, 1e-4f);
+    EXPECT_NEAR(after.y / after.z, before.y / before.z, 1e-4f);
+    const Camera back = zoomed(nearer, about, -3.0f);
+    EXPECT_LT(glm::distance(back.position, camera.position), 1e-4f);
+    const Camera close = zoomed(camera, about, 1e4f);
+    EXPECT_GT(glm::distance(close.position, close.target), 1e-3f);
+}
+
+TEST(FlownCamera, GoesWhereItLooksAndTurnsItsEyes) {
+    const Camera camera;
+    const CameraBasis basis(camera);
+    const Camera ahead = flown(camera, {0.0f, 0.0f, 2.0f}, {}, 600.0f);
+    EXPECT_LT(glm::distance(ahead.position, camera.position + 2.0f * basis.forward), 1e-5f);
+    EXPECT_LT(glm::distance(ahead.target, camera.target + 2.0f * basis.forward), 1e-5f);
+    const Camera turned = flown(camera, {}, {60.0f, 30.0f}, 600.0f);
+    EXPECT_EQ(turned.position, camera.position);
+    EXPECT_GT(glm::dot(CameraBasis(turned).forward, basis.right), 0.05f) << "to the right";
+    EXPECT_LT(CameraBasis(turned).forward.y, basis.forward.y) << "down";
+}
+
+TEST(LookingCamera, SeesTheTargetFromAsFarAlongTheAxis) {
+    const Camera camera;
+    const Camera top = looking(camera, {0, -1, 0});
+    EXPECT_LT(glm::distance(CameraBasis(top).forward, glm::vec3(0, -1, 0)), 1e-5f);
+    EXPECT_EQ(top.target, camera.target);
+    EXPECT_NEAR(glm::distance(top.position, top.target), glm::distance(camera.position, camera.target), 1e-4f);
+    Camera nowhere;
+    nowhere.position = nowhere.target;
+    EXPECT_GT(glm::distance(looking(nowhere, {0, 0, -1}).position, nowhere.target), 1e-3f);
 }
 
 TEST(CameraEdits, LeadToTheOtherCamera) {

@@ -5,6 +5,7 @@
 #include "renderer/views.h"
 #include "sdf/code_trust.h"
 #include "sdf/edit.h"
+#include "ui/picture_tools.h"
 #include "ui/report.h"
 #include "ui/scene_audit.h"
 #include "ui/theme.h"
@@ -43,6 +44,7 @@ struct Ui {
     ObjectRef inspected;  ///< what the inspector shows: follows the selection a frame late, so that a field that loses
                           ///< the keyboard to a click elsewhere can still hand in what was typed
     View view = View::result;
+    PictureTools tools;
     bool show_statistics = true;
     bool show_shortcuts = false;
     bool show_code = false;
