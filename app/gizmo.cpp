@@ -200,7 +200,8 @@ void Gizmo::draw(Ui& ui, const PictureView& view) {
         if (drag_ && !(drag_->handle() == handle)) continue;
         draw_handle(ui, shape, handle);
         const auto grip = shape.grip(handle);
-        if (!ui.report.on() || !grip || shape.strength(handle) < 0.3f) continue;
+        if (!ui.report.on() || !grip || !ImGui::IsRectVisible(im(*grip), im(*grip)) || shape.strength(handle) < 0.3f)
+            continue;
         ui.report.rectangle("gizmo", name_of(handle), {grip->x - 2.0f, grip->y - 2.0f},
                             {grip->x + 2.0f, grip->y + 2.0f});
     }

@@ -106,6 +106,7 @@ void draw_light_signs(Ui& ui, const Scene& scene, const std::vector<LightSign>& 
         else
             draw_arrow(ui, sign.from, sign.to, color, shade, thick);
         const glm::vec2 middle = 0.5f * (sign.from + sign.to);
+        if (!ImGui::IsRectVisible(im(middle), im(middle))) continue;
         ui.report.rectangle("light", light->name, {middle.x - 3.0f, middle.y - 3.0f},
                             {middle.x + 3.0f, middle.y + 3.0f});
     }
