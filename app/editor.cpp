@@ -108,12 +108,11 @@ private:
 
         const glm::vec2 size(window_.size());
         ui_.trust = &trust_;
-        const ViewportInput input{document_.snapshot(), std::exchange(escape_, false), flight()};
+        const ViewportInput input{document_.snapshot(), flight()};
         const LayoutResult result = layout_.draw(ui_, {size.x, size.y}, document_, input, picture_, files_.error(),
                                                  measuring_.results(), [&](CommandId id) { return enabled(id); });
         ui_.hand_in = false;
         carry_out(result.edits, gesture_);
-        if (result.viewport.cancel) document_.cancel(gesture_);
         carry_out_camera(result.viewport);
         if (const auto code = std::exchange(ui_.run, nullptr)) document_.accept(*code);
         if (std::exchange(save_, false)) files_.save();
@@ -196,6 +195,14 @@ private:
                 files_.edit_failed(error.what());
             }
         }
+    }
+
+    /// What a hand is changing is as it was before; the mouse lets go of it.
+    void cancel_gesture() {
+        if (gesture_edited_) document_.cancel(gesture_);
+        gesture_edited_ = gesture_moves_ = false;
+        ImGui::ClearActiveID();
+        gesture_ = ++last_gesture_;
     }
 
     void carry_out_camera(const ViewportResult& viewport) {
@@ -338,8 +345,9 @@ private:
             if (asked && press.key == escape_key && !ImGui::GetTopMostPopupModal()) ImGui::ClosePopupToLevel(0, true);
             // While something is typed or held, or a popup is open, keys belong to that; but saving never has to wait.
             const auto command = command_for(press);
+            if (press.key == escape_key && held_ && ImGui::IsAnyMouseDown() && !ImGui::GetIO().WantTextInput)
+                cancel_gesture();
             const bool busy = ImGui::GetIO().WantTextInput || (held_ && ImGui::IsAnyMouseDown());
-            escape_ |= press.key == escape_key && held_;
             if (asked || (busy && command != CommandId::save)) continue;
             if (command == CommandId::save && ImGui::GetIO().WantTextInput) {
                 ImGui::ClearActiveID();  // what is being typed belongs to what is saved
@@ -410,7 +418,6 @@ private:
     bool gesture_edited_ = false;  ///< and has changed the document
     bool gesture_moves_ = false;   ///< and more of it than settings
     bool interacting_ = false;
-    bool escape_ = false;  ///< was pressed while something is held
     glm::ivec2 size_{0};
     std::tuple<std::uint64_t, std::size_t, int, int, View, Id, bool, int> submitted_{};
     std::uint64_t shown_document_ = 0;  ///< its generation

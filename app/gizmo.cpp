@@ -70,17 +70,19 @@ Edits Gizmo::drag(const Scene& scene, glm::vec2 mouse) {
     Snap snap;
     if (ImGui::GetIO().KeyCtrl) snap = {0.1f * grid_step(scene.camera), 15.0f, 0.1f};
     motion_ = drag_->to(mouse, snap);
+    // Rounding to what a hand can tell apart would leave the steps.
+    const float finest = std::min(metres_per_pixel_, snap.metres > 0.0f ? 0.01f * snap.metres : metres_per_pixel_);
     const auto set = [&](const char* key, glm::vec3 to) {
         if (value(scene, dragged_.object, key) != to) edits.push_back(SetValue{dragged_.object, key, to});
     };
     if (dragged_.object.type == ObjectType::light) {
         if (dragged_.tool == Tool::move)
-            set("position", moved_point(light_.position, motion_, metres_per_pixel_));
+            set("position", moved_point(light_.position, motion_, finest));
         else
             set("direction", turned_direction(light_.direction, motion_));
         return edits;
     }
-    const Transform to = moved(start_, dragged_.parent, motion_, metres_per_pixel_, last_rotate_);
+    const Transform to = moved(start_, dragged_.parent, motion_, finest, last_rotate_);
     last_rotate_ = to.rotate;
     set("translate", to.translate);
     set("rotate", to.rotate);

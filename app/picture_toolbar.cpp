@@ -128,7 +128,7 @@ float picture_toolbar(Ui& ui, ImVec2 low) {
                     "X"))
         ui.tools.axes = local ? Axes::world : Axes::local;
     divide(ui);
-    if (tool_button(ui, "lights", ui.tools.lights, sun_sign, "Signs of the lights", "L"))
+    if (tool_button(ui, "lights", ui.tools.lights, sun_sign, "Signs of the lights", "Shift+L"))
         ui.tools.lights = !ui.tools.lights;
     ImGui::SameLine(0.0f, gap);
     if (tool_button(ui, "grid", ui.tools.grid, grid_sign, "Grid on the ground, and the axes", "G"))

@@ -91,12 +91,6 @@ void Viewport::follow(const Scene& scene, const ViewportInput& input, const Pict
                        : ImGui::IsMouseDown(ImGuiMouseButton_Left) ? ImGuiMouseButton_Left
                                                                    : ImGuiMouseButton_Middle;
     if (io.MouseDragMaxDistanceSqr[button] >= 9.0f) dragged_ = true;
-    if (input.escape) {
-        result.cancel = hold_ != Hold::cancelled;
-        hold_ = Hold::cancelled;
-        gizmo_.end();
-        return;
-    }
     const glm::vec2 drag(io.MouseDelta.x, io.MouseDelta.y);
     if (hold_ == Hold::gizmo) {
         if (dragged_) result.edits = gizmo_.drag(scene, mouse());
@@ -112,7 +106,7 @@ void Viewport::follow(const Scene& scene, const ViewportInput& input, const Pict
         if (hold_ == Hold::orbit) camera_ = orbited(camera_, pivot_, drag, view.size.y);
         if (hold_ == Hold::pan) camera_ = panned(camera_, pivot_, drag, view.size.y);
     }
-    if (hold_ != Hold::cancelled) result.edits = camera_edits(scene.camera, camera_);
+    result.edits = camera_edits(scene.camera, camera_);
 }
 
 void Viewport::click(Ui& ui, const ViewportInput& input, const PictureView& view) const {
@@ -167,8 +161,7 @@ ViewportResult Viewport::draw(Ui& ui, const Scene& scene, const ViewportInput& i
         result.wheel = true;
     }
     if (ImGui::IsItemDeactivated()) {
-        if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !dragged_ && hold_ != Hold::cancelled)
-            click(ui, input, view);
+        if (ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !dragged_) click(ui, input, view);
         hold_ = Hold::nothing;
     }
     if (hovered && !active) ImGui::SetMouseCursor(ImGuiMouseCursor_Arrow);

@@ -15,14 +15,12 @@ namespace farfield {
 
 struct ViewportInput {
     std::shared_ptr<const Scene> shown;  ///< the scene as it is rendered: without code that may not run
-    bool escape = false;                 ///< was pressed
     glm::vec3 fly{0.0f};                 ///< keys that are down: right, up and forward
 };
 
 struct ViewportResult {
     Edits edits;
     bool wheel = false;    ///< the edits come from the wheel, which has no press and release
-    bool cancel = false;   ///< what the drag has done so far is taken back
     glm::vec2 size{0.0f};  ///< of the picture, in ImGui units
 };
 
@@ -36,7 +34,7 @@ public:
     bool news() const { return overlay_.news() || overlay_.waits(); }
 
 private:
-    enum class Hold { nothing, orbit, pan, fly, gizmo, cancelled };
+    enum class Hold { nothing, orbit, pan, fly, gizmo };
 
     void press(const Scene& scene, const ViewportInput& input, const PictureView& view);
     void follow(const Scene& scene, const ViewportInput& input, const PictureView& view, ViewportResult& result);

@@ -1,7 +1,6 @@
 // What dragging the handles over the picture comes to, without a window.
 #include "app/gizmo_math.h"
 
-#include "sdf/edit.h"
 #include "sdf/scene_file.h"
 
 #include <glm/trigonometric.hpp>
@@ -323,22 +322,6 @@ TEST(ParentFrame, IsTheChainOfTransformsAboveAndOfTheFirstInstance) {
     EXPECT_LT(glm::distance(origin_of("shaft").value().origin, vec3(6, 2, 0)), 1e-5f);
     EXPECT_FLOAT_EQ(origin_of("shaft").value().scale, 2.0f);
     EXPECT_FALSE(parent_frame(scene, 99999));
-}
-
-TEST(History, CancelTakesBackAGestureWithoutATrace) {
-    History history;
-    const ObjectRef camera{ObjectType::camera, 0};
-    history.apply(SetValue{camera, "field_of_view", vec3(50, 0, 0)}, 1);
-    const std::uint64_t before = history.revision();
-    history.apply(SetValue{camera, "field_of_view", vec3(60, 0, 0)}, 2);
-    history.apply(SetValue{camera, "field_of_view", vec3(70, 0, 0)}, 2);
-    history.cancel(3);
-    EXPECT_EQ(history.scene().camera.field_of_view, 70.0f) << "another gesture";
-    history.cancel(2);
-    EXPECT_EQ(history.revision(), before);
-    EXPECT_FALSE(history.can_redo());
-    history.cancel(2);
-    EXPECT_EQ(history.revision(), before);
 }
 
 }  // namespace
