@@ -151,9 +151,8 @@ ViewportResult Viewport::draw(Ui& ui, const Scene& scene, const ViewportInput& i
     gizmo_.refresh(ui, scene, view, hovered && !active);
     if (ImGui::IsItemActivated()) {
         gizmo_.refresh(ui, scene, view, true);
-        press(scene, input, view);
-    }
-    if (active) {
+        press(scene, input, view);  // edits follow from the next frame on, when the gesture is the picture's
+    } else if (active) {
         follow(scene, input, view, result);
     } else if (hovered && ImGui::GetIO().MouseWheel != 0.0f) {
         result.edits =

@@ -158,7 +158,7 @@ def the_camera_orbits_zooms_flies_and_looks_along_axes(editor):
     before = FIRST["camera"]
     for name, action in (("orbit", lambda: drag(editor, place, (60, 20))), ("wheel", turn_wheel), ("fly", fly),
                          ("pan", lambda: drag(editor, place, (40, 0), button=2)),
-                         ("front", lambda: editor.key("KP_1")), ("above", lambda: editor.key("KP_7"))):
+                         ("right", lambda: editor.key("KP_3")), ("above", lambda: editor.key("KP_7"))):
         action()
         editor.wait(name, lambda r: r["revision"] > revision)
         time.sleep(0.5)  # turns of the wheel that come soon are one step
