@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 
 namespace farfield {
@@ -11,6 +12,8 @@ namespace {
 
 /// While something moves all the time the processor belongs to the picture.
 constexpr double rest = 0.06;  // seconds
+
+constexpr double share = 0.1;  // of the time, at most, that it takes to find out whether the lines still hold
 
 ImVec2 im(glm::vec2 v) { return {v.x, v.y}; }
 
@@ -102,7 +105,13 @@ void PictureOverlay::ask(const Ui& ui, const std::shared_ptr<const Scene>& shown
     Request request{shown, view.low, view.size, node ? ui.selection.id : 0, ui.tools.grid};
     if (request.scene != asked_.scene || request.low != asked_.low || request.size != asked_.size ||
         request.selected != asked_.selected || request.grid != asked_.grid) {
+        // A scene that is large enough for it to take long is not looked at in each frame.
+        current_ = ImGui::GetTime() >= next_look_;
+        if (!current_) return;
+        const auto start = std::chrono::steady_clock::now();
         request.key = key_of(*shown, view, request.selected, request.grid);
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+        next_look_ = ImGui::GetTime() + taken.count() / share;
         if (request.key != asked_.key) due_ = ImGui::GetTime() + rest;
         asked_ = std::move(request);
     }
@@ -183,7 +192,7 @@ void PictureOverlay::draw(Ui& ui, const std::shared_ptr<const Scene>& shown, con
         }
     }
     if (ui.tools.grid && !lines_.seen.empty()) draw_grid(ui, *shown, view);
-    if (asked_.selected != 0 && lines_.key == asked_.key) draw_outline(ui);
+    if (current_ && asked_.selected != 0 && lines_.key == asked_.key) draw_outline(ui);
 }
 
 }  // namespace farfield

@@ -28,7 +28,7 @@ public:
     /// Whether there are lines that no frame has drawn yet.
     bool news() const;
     /// Whether the thread is about to be asked: draw again soon.
-    bool waits() const { return due_ != 0.0; }
+    bool waits() const { return due_ != 0.0 || !current_; }
 
 private:
     struct Request {
@@ -58,7 +58,9 @@ private:
     bool stop_ = false;
 
     Request asked_;
-    double due_ = 0.0;  ///< when the thread is to be asked, in ImGui's time; 0: it was
+    bool current_ = false;    ///< `asked_` is what is on screen
+    double next_look_ = 0.0;  ///< in ImGui's time
+    double due_ = 0.0;        ///< when the thread is to be asked, in ImGui's time; 0: it was
     Lines lines_;
     std::thread thread_;
 };
