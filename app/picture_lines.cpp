@@ -38,11 +38,11 @@ public:
         const vec2 size = glm::max(area.high - area.low, vec2(0.0f));
         const float coarse =
             std::clamp(std::sqrt(size.x * size.y / static_cast<float>(std::max(samples, 1))), finest, coarsest);
-        step_ = coarse / refinement;
-        cells_across_ = static_cast<int>(size.x / coarse);
-        cells_down_ = static_cast<int>(size.y / coarse);
+        cells_across_ = static_cast<int>(std::ceil(size.x / coarse));
+        cells_down_ = static_cast<int>(std::ceil(size.y / coarse));
         across_ = cells_across_ * refinement + 1;
         down_ = cells_down_ * refinement + 1;
+        step_ = size / glm::max(vec2(across_ - 1, down_ - 1), vec2(1.0f));
         footprint_ = 0.6f * view.basis.half_height / view.size.y;
     }
 
@@ -97,7 +97,7 @@ private:
         if (!fresh) return found->second;
         vec2 in = place(ax, ay), out = place(bx, by);
         if (!shows_[index(ax, ay)]) std::swap(in, out);
-        for (float width = step_; width > 0.25f; width *= 0.5f) {
+        for (float width = std::max(step_.x, step_.y); width > 0.25f; width *= 0.5f) {
             const vec2 middle = 0.5f * (in + out);
             (shows(middle) ? in : out) = middle;
         }
@@ -118,7 +118,8 @@ private:
     const PictureView& view_;
     const std::set<Id>& owners_;
     vec2 low_;
-    float step_ = 1.0f, footprint_ = 0.0f;
+    vec2 step_{1.0f};
+    float footprint_ = 0.0f;
     int cells_across_ = 0, cells_down_ = 0;  ///< of the coarse lattice
     int across_ = 0, down_ = 0;              ///< points of the fine one
     std::vector<bool> shows_;
