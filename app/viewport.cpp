@@ -40,7 +40,7 @@ glm::vec3 grasped(const Scene& shown, const PictureView& view) {
     const float distance = glm::distance(camera.target, camera.position);
     const Ray ray = view.ray(mouse());
     const auto hit = pick(FieldEvaluator(shown), ray.origin, ray.direction, 1e-3f);
-    if (hit && hit->distance < 10.0f * distance) return hit->position;
+    if (hit && hit->distance < 30.0f * distance) return hit->position;
     const float along = glm::dot(ray.direction, view.basis.forward);
     return camera.position + ray.direction * (distance / std::max(along, 1e-3f));
 }
@@ -186,9 +186,11 @@ ViewportResult Viewport::draw(Ui& ui, const Scene& scene, const ViewportInput& i
               ui.theme.accent);
     else if (ui.view != View::result)
         label(ui, below, views()[static_cast<std::size_t>(ui.view)].label, ui.theme.accent);
+    // Beside the tools, or below them where there is no room.
+    const float top = covered + margin + (size.x < ui.theme.px(540.0f) ? bar + margin : 0.0f);
     if (ui.show_statistics && picture.texture != 0)
-        statistics_overlay(ui, picture.statistics, {high.x - margin, low.y + covered + margin},
-                           {size.x - 2.0f * margin, size.y - covered - 2.0f * margin});
+        statistics_overlay(ui, picture.statistics, {high.x - margin, low.y + top},
+                           {size.x - 2.0f * margin, size.y - top - margin});
     draw.ChannelsMerge();
     return result;
 }
