@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <utility>
-#include <vector>
 
 namespace farfield {
 namespace {
@@ -113,15 +111,14 @@ bool code_switch(Ui& ui) {
     return pressed;
 }
 
-void table_cells(const Ui& ui, const std::pair<const char*, const char*>& line) {
+void table_line(const Ui& ui, const char* left, const char* right) {
+    ImGui::TableNextRow();
     ImGui::TableNextColumn();
     ImGui::PushStyleColor(ImGuiCol_Text, ui.theme.accent);
-    ImGui::TextUnformatted(line.first);
+    ImGui::TextUnformatted(left);
     ImGui::PopStyleColor();
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted(line.second);
-    ImGui::SameLine(0.0f, ui.theme.px(18.0f));
-    ImGui::Dummy({0.0f, 0.0f});
+    ImGui::TextUnformatted(right);
 }
 
 }  // namespace
@@ -216,17 +213,10 @@ void shortcut_list(Ui& ui) {
     if (ImGui::Begin(
             "Keys and mouse", &ui.show_shortcuts,
             ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse)) {
-        std::vector<std::pair<const char*, const char*>> lines(std::begin(mouse), std::end(mouse));
-        for (const Command& command : commands) lines.emplace_back(command.key_text, command.label);
-        lines.emplace_back("1 ... 9", "Views, from Result to Step count");
-        // In two columns: they are more than a small window is high.
-        const std::size_t half = (lines.size() + 1) / 2;
-        if (ImGui::BeginTable("keys", 4, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_PadOuterX)) {
-            for (std::size_t i = 0; i < half; ++i) {
-                ImGui::TableNextRow();
-                table_cells(ui, lines[i]);
-                if (half + i < lines.size()) table_cells(ui, lines[half + i]);
-            }
+        if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_PadOuterX)) {
+            for (const auto& [action, effect] : mouse) table_line(ui, action, effect);
+            for (const Command& command : commands) table_line(ui, command.key_text, command.label);
+            table_line(ui, "1 ... 9", "Views, from Result to Step count");
             ImGui::EndTable();
         }
     }

@@ -20,6 +20,7 @@ constexpr float axis_from = 0.18f;  // where the line of an axis begins
 constexpr float plane_low = 0.30f, plane_high = 0.52f;
 constexpr float ring_radius = 0.92f, view_ring_radius = 1.12f;
 constexpr int ring_points = 64;
+constexpr float farthest = 30.0f;  // that a hand moves something, of its distance from the eye
 
 bool is_finite(vec3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
@@ -233,11 +234,16 @@ GizmoDrag::GizmoDrag(const PictureView& view, Tool tool, Handle handle, const Po
 
 std::optional<vec3> GizmoDrag::point(vec2 mouse) const {
     const Ray ray = view_.ray(mouse);
+    std::optional<vec3> at;
     if (tool_ == Tool::move && handle_.part == Handle::Part::axis) {
-        const auto along = along_axis(ray, pose_.origin, pose_.axes[handle_.axis]);
-        return along ? std::optional(pose_.origin + *along * pose_.axes[handle_.axis]) : std::nullopt;
+        if (const auto along = along_axis(ray, pose_.origin, pose_.axes[handle_.axis]))
+            at = pose_.origin + *along * pose_.axes[handle_.axis];
+    } else {
+        at = on_plane(ray, pose_.origin, normal_);
     }
-    return on_plane(ray, pose_.origin, normal_);
+    // Towards the horizon a pixel is kilometres.
+    const bool near = at && glm::distance(*at, view_.eye) < farthest * glm::distance(pose_.origin, view_.eye);
+    return near ? at : std::nullopt;
 }
 
 float GizmoDrag::direction(vec2 mouse) const {

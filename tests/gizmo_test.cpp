@@ -163,6 +163,18 @@ TEST(GizmoDrag, MovesSoThatTheHandleStaysUnderTheMouse) {
     }
 }
 
+TEST(GizmoDrag, ThrowsNothingBeyondTheHorizon) {
+    const PictureView view = view_from({0, 1, 8});
+    const Handle ground{Handle::Part::plane, 1};
+    const vec2 from = GizmoShape(view, Tool::move, {}, length).centre();
+    GizmoDrag drag(view, Tool::move, ground, {}, from, length);
+    float largest = 0.0f;
+    for (float y = 0.0f; y < 300.0f; y += 1.0f)
+        largest = std::max(largest, glm::length(drag.to(from - vec2(0, y), {}).shift));
+    EXPECT_GT(largest, 20.0f);
+    EXPECT_LT(largest, 260.0f);
+}
+
 TEST(GizmoDrag, TurnsWithTheMouseAroundTheRingAndPastHalfATurn) {
     const PictureView view = view_from({0, 0, 5});
     for (const Handle handle : {Handle{Handle::Part::axis, 2}, Handle{Handle::Part::view, 0}}) {
