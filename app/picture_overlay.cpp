@@ -3,6 +3,7 @@
 #include "sdf/scene_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <chrono>
 #include <cmath>
@@ -18,12 +19,13 @@ constexpr double share = 0.1;  // of the time, at most, that it takes to find ou
 ImVec2 im(glm::vec2 v) { return {v.x, v.y}; }
 
 /// All that the shapes and what the camera sees of them depend on, by the one description of a scene that is complete.
-std::string key_of(const Scene& scene, const PictureView& view, Id selected, bool grid) {
+std::string key_of(const Scene& scene, const PictureView& view, const std::vector<Id>& selected, bool grid) {
     Scene seen = scene;
     seen.settings = {};
     seen.sky = {};
     seen.lights.clear();
-    return fmt::format("{} {} {} {} {} {}\n", view.low.x, view.low.y, view.size.x, view.size.y, selected, grid) +
+    return fmt::format("{} {} {} {} {} {}\n", view.low.x, view.low.y, view.size.x, view.size.y,
+                       fmt::join(selected, "+"), grid) +
            to_text(seen);
 }
 
@@ -88,8 +90,13 @@ PictureOverlay::Lines PictureOverlay::find(const Request& request) {
         lines.grid = GroundGrid(scene.camera);
         lines.seen = seen_points(field, view, lines.grid, over);
     }
-    const std::set<Id> shapes = request.selected != 0 ? shapes_of(scene, request.selected) : std::set<Id>();
-    const auto bounds = world_bounds(field.tree(), blended(scene, request.selected));
+    std::set<Id> shapes;
+    std::optional<Box> bounds;
+    for (const Id id : request.selected) {
+        shapes.merge(shapes_of(scene, id));
+        const Box box = world_bounds(field.tree(), blended(scene, id)).value_or(Box{});  // without end: anywhere
+        bounds = bounds ? bounds->united(box) : box;
+    }
     lines.outline = outline_of(field, view, shapes, bounds, samples_for(scene), outdated);
     if (outdated()) lines.key.clear();
     return lines;
@@ -100,9 +107,16 @@ bool PictureOverlay::news() const {
     return found_.has_value();
 }
 
+/// The selected nodes but the scene as a whole.
+std::vector<Id> PictureOverlay::outlined(const Ui& ui, const Scene& scene) {
+    std::vector<Id> nodes;
+    if (ui.selection.type == ObjectType::node) nodes.push_back(ui.selection.id);
+    std::erase(nodes, scene.root.id);
+    return nodes;
+}
+
 void PictureOverlay::ask(const Ui& ui, const std::shared_ptr<const Scene>& shown, const PictureView& view) {
-    const bool node = ui.selection.type == ObjectType::node && ui.selection.id != shown->root.id;
-    Request request{shown, view.low, view.size, node ? ui.selection.id : 0, ui.tools.grid};
+    Request request{shown, view.low, view.size, outlined(ui, *shown), ui.tools.grid};
     if (request.scene != asked_.scene || request.low != asked_.low || request.size != asked_.size ||
         request.selected != asked_.selected || request.grid != asked_.grid) {
         // A scene that is large enough for it to take long is not looked at in each frame.
@@ -117,7 +131,7 @@ void PictureOverlay::ask(const Ui& ui, const std::shared_ptr<const Scene>& shown
     }
     if (due_ == 0.0 || ImGui::GetTime() < due_) return;
     due_ = 0.0;
-    if (asked_.selected == 0 && !asked_.grid) return;
+    if (asked_.selected.empty() && !asked_.grid) return;
     {
         const std::lock_guard lock(mutex_);
         next_ = asked_;
@@ -192,7 +206,7 @@ void PictureOverlay::draw(Ui& ui, const std::shared_ptr<const Scene>& shown, con
         }
     }
     if (ui.tools.grid && !lines_.seen.empty()) draw_grid(ui, *shown, view);
-    if (current_ && asked_.selected != 0 && lines_.key == asked_.key) draw_outline(ui);
+    if (current_ && !asked_.selected.empty() && lines_.key == asked_.key) draw_outline(ui);
 }
 
 }  // namespace farfield

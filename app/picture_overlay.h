@@ -34,7 +34,7 @@ private:
     struct Request {
         std::shared_ptr<const Scene> scene;
         glm::vec2 low{0.0f}, size{0.0f};
-        Id selected = 0;  ///< 0: no outline
+        std::vector<Id> selected;  ///< none: no outline
         bool grid = false;
         std::string key{};  ///< equal where the lines are
     };
@@ -46,6 +46,7 @@ private:
     };
 
     void work();
+    static std::vector<Id> outlined(const Ui& ui, const Scene& scene);
     Lines find(const Request& request);
     void ask(const Ui& ui, const std::shared_ptr<const Scene>& shown, const PictureView& view);
     void draw_outline(Ui& ui) const;
