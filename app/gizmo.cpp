@@ -33,16 +33,27 @@ std::optional<Gizmo::Target> Gizmo::find_target(const Ui& ui, const Scene& scene
     if (object.type == ObjectType::light) {
         const Light* light = find_light(scene, object.id);
         if (!light) return std::nullopt;
-        if (light->kind == LightKind::point) return Target{object, Tool::move, {light->position}, {}};
-        return Target{object, Tool::rotate, {scene.camera.target}, {}};
+        if (light->kind == LightKind::point) return Target{object, Tool::move, {light->position}};
+        return Target{object, Tool::rotate, {scene.camera.target}};
     }
     if (object.type != ObjectType::node || object.id == scene.root.id) return std::nullopt;
     const Node* node = find_node(scene, object.id);
     const auto parent = node ? parent_frame(scene, object.id) : std::nullopt;
     if (!parent) return std::nullopt;
     const Frame own = parent->placed(node->transform);
-    return Target{
-        object, ui.tools.tool, {own.origin, ui.tools.axes == Axes::local ? own.rotation : glm::mat3(1.0f)}, *parent};
+    return Target{object, ui.tools.tool, {own.origin, ui.tools.axes == Axes::local ? own.rotation : glm::mat3(1.0f)}};
+}
+
+/// Each moves, turns and grows as much as the others, about its own origin.
+std::vector<Gizmo::HeldNode> Gizmo::find_nodes(const Ui& ui, const Scene& scene) {
+    std::vector<HeldNode> nodes;
+    if (ui.selection.type != ObjectType::node) return nodes;
+    for (const Id id : {ui.selection.id}) {
+        const Node* node = find_node(scene, id);
+        const auto parent = node ? parent_frame(scene, id) : std::nullopt;
+        if (parent) nodes.push_back({id, *parent, node->transform, node->transform.rotate});
+    }
+    return nodes;
 }
 
 void Gizmo::refresh(const Ui& ui, const Scene& scene, const PictureView& view, bool mouse_free) {
@@ -54,14 +65,13 @@ void Gizmo::refresh(const Ui& ui, const Scene& scene, const PictureView& view, b
     hovered_ = GizmoShape(view, target_->tool, target_->pose, length_).at({mouse.x, mouse.y});
 }
 
-void Gizmo::begin(const Scene& scene, const PictureView& view, glm::vec2 mouse) {
+void Gizmo::begin(const Ui& ui, const Scene& scene, const PictureView& view, glm::vec2 mouse) {
     dragged_ = *target_;
     drag_.emplace(view, dragged_.tool, *hovered_, dragged_.pose, mouse, length_);
     motion_ = {};
     metres_per_pixel_ = view.metres_per_pixel(dragged_.pose.origin);
-    if (const Node* node = find_node(scene, dragged_.object.id)) start_ = node->transform;
+    nodes_ = find_nodes(ui, scene);
     if (const Light* light = find_light(scene, dragged_.object.id)) light_ = *light;
-    last_rotate_ = start_.rotate;
 }
 
 Edits Gizmo::drag(const Scene& scene, glm::vec2 mouse) {
@@ -72,21 +82,25 @@ Edits Gizmo::drag(const Scene& scene, glm::vec2 mouse) {
     motion_ = drag_->to(mouse, snap);
     // Rounding to what a hand can tell apart would leave the steps.
     const float finest = std::min(metres_per_pixel_, snap.metres > 0.0f ? 0.01f * snap.metres : metres_per_pixel_);
-    const auto set = [&](const char* key, glm::vec3 to) {
-        if (value(scene, dragged_.object, key) != to) edits.push_back(SetValue{dragged_.object, key, to});
+    const auto set = [&](ObjectRef object, const char* key, glm::vec3 to) {
+        if (value(scene, object, key) != to) edits.push_back(SetValue{object, key, to});
     };
     if (dragged_.object.type == ObjectType::light) {
         if (dragged_.tool == Tool::move)
-            set("position", moved_point(light_.position, motion_, finest));
+            set(dragged_.object, "position", moved_point(light_.position, motion_, finest));
         else
-            set("direction", turned_direction(light_.direction, motion_));
+            set(dragged_.object, "direction", turned_direction(light_.direction, motion_));
         return edits;
     }
-    const Transform to = moved(start_, dragged_.parent, motion_, finest, last_rotate_);
-    last_rotate_ = to.rotate;
-    set("translate", to.translate);
-    set("rotate", to.rotate);
-    set("scale", {to.scale, 0.0f, 0.0f});
+    for (HeldNode& node : nodes_) {
+        const ObjectRef object{ObjectType::node, node.id};
+        if (!exists(scene, object)) continue;
+        const Transform to = moved(node.start, node.parent, motion_, finest, node.last_rotate);
+        node.last_rotate = to.rotate;
+        set(object, "translate", to.translate);
+        set(object, "rotate", to.rotate);
+        set(object, "scale", {to.scale, 0.0f, 0.0f});
+    }
     return edits;
 }
 

@@ -17,8 +17,7 @@ public:
     /// Whether the mouse is over a handle.
     bool hovered() const { return hovered_.has_value(); }
     /// Takes the handle under the mouse.
-    void begin(const Scene& scene, const PictureView& view, glm::vec2 mouse);
-    bool held() const { return drag_.has_value(); }
+    void begin(const Ui& ui, const Scene& scene, const PictureView& view, glm::vec2 mouse);
     Edits drag(const Scene& scene, glm::vec2 mouse);
     void end() { drag_.reset(); }
     void draw(Ui& ui, const PictureView& view);
@@ -28,9 +27,16 @@ private:
         ObjectRef object;
         Tool tool;
         Pose pose;
+    };
+    /// A node that a drag changes, as it was.
+    struct HeldNode {
+        Id id;
         Frame parent;
+        Transform start;
+        glm::vec3 last_rotate;  ///< what the next angles continue
     };
     static std::optional<Target> find_target(const Ui& ui, const Scene& scene);
+    static std::vector<HeldNode> find_nodes(const Ui& ui, const Scene& scene);
     void draw_handle(const Ui& ui, const GizmoShape& shape, Handle handle) const;
     void draw_value(const Ui& ui, const PictureView& view) const;
     std::string value_text() const;
@@ -41,9 +47,8 @@ private:
     // While one is held:
     std::optional<GizmoDrag> drag_;
     Target dragged_{};
-    Transform start_;        ///< of a node
-    Light light_;            ///< a light as it was
-    glm::vec3 last_rotate_;  ///< what the next angles continue
+    std::vector<HeldNode> nodes_;
+    Light light_;  ///< as it was
     float metres_per_pixel_ = 0.0f;
     Motion motion_;
 };

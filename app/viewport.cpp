@@ -68,7 +68,7 @@ void draw_pivot(const Ui& ui, const PictureView& view, glm::vec3 pivot) {
 
 }  // namespace
 
-void Viewport::press(const Scene& scene, const ViewportInput& input, const PictureView& view) {
+void Viewport::press(const Ui& ui, const Scene& scene, const ViewportInput& input, const PictureView& view) {
     camera_ = scene.camera;
     dragged_ = false;
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Right)) {
@@ -76,7 +76,7 @@ void Viewport::press(const Scene& scene, const ViewportInput& input, const Pictu
         flight_scale_ = std::clamp(glm::distance(camera_.position, camera_.target), 0.05f, 1e4f);
     } else if (ImGui::IsMouseClicked(ImGuiMouseButton_Left) && gizmo_.hovered() && !ImGui::GetIO().KeyShift) {
         hold_ = Hold::gizmo;
-        gizmo_.begin(scene, view, mouse());
+        gizmo_.begin(ui, scene, view, mouse());
     } else {
         const bool pan = ImGui::IsMouseDown(ImGuiMouseButton_Middle) || ImGui::GetIO().KeyShift;
         hold_ = pan ? Hold::pan : Hold::orbit;
@@ -151,7 +151,7 @@ ViewportResult Viewport::draw(Ui& ui, const Scene& scene, const ViewportInput& i
     gizmo_.refresh(ui, scene, view, hovered && !active);
     if (ImGui::IsItemActivated()) {
         gizmo_.refresh(ui, scene, view, true);
-        press(scene, input, view);  // edits follow from the next frame on, when the gesture is the picture's
+        press(ui, scene, input, view);  // edits follow from the next frame on, when the gesture is the picture's
     } else if (active) {
         follow(scene, input, view, result);
     } else if (hovered && ImGui::GetIO().MouseWheel != 0.0f) {

@@ -36,7 +36,7 @@ public:
 private:
     enum class Hold { nothing, orbit, pan, fly, gizmo };
 
-    void press(const Scene& scene, const ViewportInput& input, const PictureView& view);
+    void press(const Ui& ui, const Scene& scene, const ViewportInput& input, const PictureView& view);
     void follow(const Scene& scene, const ViewportInput& input, const PictureView& view, ViewportResult& result);
     void click(Ui& ui, const ViewportInput& input, const PictureView& view) const;
 
