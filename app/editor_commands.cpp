@@ -38,7 +38,7 @@ constexpr Command commands[] = {
     {CommandId::move_down, "Edit", "move_down", "Move down", GLFW_KEY_DOWN, alt, "Alt+Down"},
     {CommandId::make_definition, "Edit", "make_definition", "Make definition", 'I', ctrl, "Ctrl+I", true},
     {CommandId::make_independent, "Edit", "make_independent", "Make independent", 'I', ctrl | shift, "Ctrl+Shift+I"},
-    {CommandId::select, "Tools", "select", "Select alone", 'Q', plain, "Q"},
+    {CommandId::select, "Tools", "select", "No handles", 'Q', plain, "Q"},
     {CommandId::move, "Tools", "move", "Move", 'W', plain, "W"},
     {CommandId::rotate, "Tools", "rotate", "Rotate", 'E', plain, "E"},
     {CommandId::scale, "Tools", "scale", "Scale", 'R', plain, "R"},

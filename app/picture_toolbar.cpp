@@ -105,7 +105,7 @@ float picture_toolbar(Ui& ui, ImVec2 low) {
         const char* key;
     };
     static constexpr Entry tools[] = {
-        {Tool::none, "select", hand_sign, "Select alone, without handles", "Q"},
+        {Tool::none, "select", hand_sign, "No handles: select and look around", "Q"},
         {Tool::move, "move", move_sign, "Move what is selected", "W; Ctrl while dragging: in steps"},
         {Tool::rotate, "rotate", rotate_sign, "Turn what is selected", "E; Ctrl while dragging: by 15°"},
         {Tool::scale, "scale", scale_sign, "Scale what is selected", "R; Ctrl while dragging: in steps"},
