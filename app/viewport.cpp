@@ -34,13 +34,14 @@ void centred_text(const Ui& ui, ImVec2 low, ImVec2 high, float line, const char*
 glm::vec2 mouse() { return {ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y}; }
 
 /// What a hand has hold of there: the surface under the mouse. Where there is none, or it is so far off that a hand
-/// would throw the camera, the point at the target's distance.
+/// would throw the camera, or the camera is inside of something, the point at the target's distance.
 glm::vec3 grasped(const Scene& shown, const PictureView& view) {
     const Camera& camera = shown.camera;
     const float distance = glm::distance(camera.target, camera.position);
     const Ray ray = view.ray(mouse());
     const auto hit = pick(FieldEvaluator(shown), ray.origin, ray.direction, 1e-3f);
-    if (hit && hit->distance < 30.0f * distance) return hit->position;
+    const bool in_reach = hit && hit->distance > 1e-3f * distance && hit->distance < 30.0f * distance;
+    if (in_reach) return hit->position;
     const float along = glm::dot(ray.direction, view.basis.forward);
     return camera.position + ray.direction * (distance / std::max(along, 1e-3f));
 }
