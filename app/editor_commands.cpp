@@ -30,18 +30,30 @@ constexpr Command commands[] = {
     {CommandId::quit, "File", "quit", "Quit", 'Q', ctrl, "Ctrl+Q", true},
     {CommandId::undo, "Edit", "undo", "Undo", 'Z', ctrl, "Ctrl+Z"},
     {CommandId::redo, "Edit", "redo", "Redo", 'Y', ctrl, "Ctrl+Y, Ctrl+Shift+Z"},
+    {CommandId::cut, "Edit", "cut", "Cut", 'X', ctrl, "Ctrl+X", true},
+    {CommandId::copy, "Edit", "copy", "Copy", 'C', ctrl, "Ctrl+C"},
+    {CommandId::paste, "Edit", "paste", "Paste", 'V', ctrl, "Ctrl+V"},
     {CommandId::add, "Edit", "add", "Add...", 'A', plain, "A, Shift+A", true},
     {CommandId::duplicate, "Edit", "duplicate", "Duplicate", 'D', ctrl, "Ctrl+D"},
     {CommandId::rename, "Edit", "rename", "Rename", GLFW_KEY_F2, plain, "F2"},
     {CommandId::remove, "Edit", "delete", "Delete", GLFW_KEY_DELETE, plain, "Del"},
-    {CommandId::move_up, "Edit", "move_up", "Move up", GLFW_KEY_UP, alt, "Alt+Up", true},
+    {CommandId::select_all, "Edit", "select_all", "Select all", 'A', ctrl, "Ctrl+A", true},
+    {CommandId::search, "Edit", "search", "Search the tree", 'F', ctrl, "Ctrl+F"},
+    {CommandId::group, "Edit", "group", "Group", 'G', ctrl, "Ctrl+G", true},
+    {CommandId::dissolve, "Edit", "dissolve", "Dissolve", 'G', ctrl | shift, "Ctrl+Shift+G"},
+    {CommandId::move_up, "Edit", "move_up", "Move up", GLFW_KEY_UP, alt, "Alt+Up"},
     {CommandId::move_down, "Edit", "move_down", "Move down", GLFW_KEY_DOWN, alt, "Alt+Down"},
+    {CommandId::hide, "Edit", "hide", "Hide or show", 'H', plain, "H", true},
+    {CommandId::show_only, "Edit", "show_only", "Show only this", 'H', shift, "Shift+H"},
+    {CommandId::show_everything, "Edit", "show_everything", "Show everything", 'H', alt, "Alt+H"},
+    {CommandId::lock, "Edit", "lock", "Lock or unlock", 'L', plain, "L"},
     {CommandId::make_definition, "Edit", "make_definition", "Make definition", 'I', ctrl, "Ctrl+I", true},
     {CommandId::make_independent, "Edit", "make_independent", "Make independent", 'I', ctrl | shift, "Ctrl+Shift+I"},
     {CommandId::frame_selection, "View", "frame_selection", "Frame selection", 'F', plain, "F", true},
     {CommandId::frame_all, "View", "frame_all", "Frame all", GLFW_KEY_HOME, plain, "Home, Shift+F"},
     {CommandId::reset_camera, "View", "reset_camera", "Reset camera", GLFW_KEY_HOME, shift, "Shift+Home"},
-    {CommandId::statistics, "View", "statistics", "Statistics", GLFW_KEY_F3, plain, "F3", true},
+    {CommandId::history, "View", "history", "History", 'H', ctrl, "Ctrl+H", true},
+    {CommandId::statistics, "View", "statistics", "Statistics", GLFW_KEY_F3, plain, "F3"},
     {CommandId::code, "View", "code", "Code", GLFW_KEY_F4, plain, "F4"},
     {CommandId::measure, "View", "measure", "Speed and accuracy", GLFW_KEY_F6, plain, "F6"},
     {CommandId::shortcuts, "Help", "shortcuts", "Keys and mouse", GLFW_KEY_F1, plain, "F1"},
@@ -50,11 +62,12 @@ constexpr Command commands[] = {
 constexpr const char* menus[] = {"File", "Edit", "View", "Help"};
 
 constexpr std::pair<const char*, const char*> mouse[] = {
-    {"Click in the picture", "Select the shape, then the groups around it"},
+    {"Click in the picture", "Select the shape, then the groups around it; Ctrl adds or takes out"},
+    {"Ctrl-click, Shift-click in the tree", "Add to the selection or take out, select a range"},
     {"Left drag on the picture", "Orbit"},
     {"Middle drag, Shift + left drag", "Pan"},
     {"Wheel", "Zoom"},
-    {"Drag a number", "Change it; Shift finer, Ctrl coarser"},
+    {"Drag a number", "Change it; Shift finer, Ctrl coarser, Escape leaves it as it was"},
     {"Double-click or Ctrl-click a number", "Type it"},
     {"Right-click a value", "Back to its default"},
     {"Drag a node in the tree", "Re-order, or move into another"},
@@ -65,7 +78,8 @@ constexpr std::pair<const char*, const char*> mouse[] = {
 
 bool is_on(const Ui& ui, CommandId id) {
     return (id == CommandId::statistics && ui.show_statistics) || (id == CommandId::code && ui.show_code) ||
-           (id == CommandId::measure && ui.show_measure) || (id == CommandId::shortcuts && ui.show_shortcuts);
+           (id == CommandId::history && ui.show_history) || (id == CommandId::measure && ui.show_measure) ||
+           (id == CommandId::shortcuts && ui.show_shortcuts);
 }
 
 void view_entries(Ui& ui) {

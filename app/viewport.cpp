@@ -3,6 +3,7 @@
 #include "app/camera_control.h"
 #include "sdf/pick.h"
 #include "ui/statistics_panel.h"
+#include "ui/tree_edits.h"
 
 #include <cmath>
 #include <cstdint>
@@ -43,11 +44,20 @@ Id node_under_mouse(const Ui& ui, const Scene& scene, ImVec2 low, ImVec2 size) {
     const glm::vec2 at((mouse.x - low.x) / size.x, (mouse.y - low.y) / size.y);
     const glm::vec3 direction = CameraBasis(scene.camera).direction(at, size.x / size.y);
     const std::optional<Pick> hit = pick(FieldEvaluator(scene), scene.camera.position, direction);
-    if (!hit) return scene.root.id;
+    if (!hit || find_lock(scene, hit->node)) return scene.root.id;
+    if (ImGui::GetIO().KeyCtrl) return hit->node;
     if (ui.selection.type == ObjectType::node)
         for (const Node* node = find_node(scene, hit->node); node; node = find_parent(scene, node->id))
             if (node->id == ui.selection.id && node->id != scene.root.id) return find_parent(scene, node->id)->id;
     return hit->node;
+}
+
+/// With Ctrl the node is added or taken out, and a click beside the shapes changes nothing.
+void select_under_mouse(Ui& ui, const Scene& scene, Id node) {
+    if (!ImGui::GetIO().KeyCtrl)
+        ui.select(select(ObjectRef{ObjectType::node, ui.reveal = node}));
+    else if (node != scene.root.id)
+        ui.select(toggled(ui.selected(), ui.reveal = node));
 }
 
 }  // namespace
@@ -68,10 +78,13 @@ ViewportResult viewport(Ui& ui, const Scene& scene, const RenderedPicture& pictu
     result.edits = move_camera(scene, size.y, result.wheel);
     const float moved = ImGui::GetIO().MouseDragMaxDistanceSqr[ImGuiMouseButton_Left];
     if (ImGui::IsItemDeactivated() && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && moved < 9.0f)
-        ui.selection = {ObjectType::node, ui.reveal = node_under_mouse(ui, scene, low, size)};
+        select_under_mouse(ui, scene, node_under_mouse(ui, scene, low, size));
     if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) ImGui::SetMouseCursor(ImGuiMouseCursor_Arrow);
 
-    if (is_empty(scene, scene.root)) {
+    const bool nothing_shows = is_empty(scene, scene.root);
+    if (nothing_shows && !show_everything(scene).empty()) {
+        centred_text(ui, low, high, 0.0f, "Nothing shows. Alt+H shows all that is hidden", ui.theme.text);
+    } else if (nothing_shows) {
         centred_text(ui, low, high, -0.5f, "There is no shape in the scene yet", ui.theme.text);
         centred_text(ui, low, high, 0.7f, "Press + Add in the Scene panel, or A, to put in a first one", ui.theme.dim);
     } else if (picture.texture == 0 && picture.error.empty()) {
