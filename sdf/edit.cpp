@@ -110,7 +110,7 @@ Id apply(Scene& scene, const Edit& edit) {
     return id;
 }
 
-std::vector<Id> apply(Scene& scene, std::span<const Edit> edits) {
+std::vector<Id> apply_all(Scene& scene, std::span<const Edit> edits) {
     if (edits.size() == 1) return {apply(scene, edits[0])};
     Scene changed = scene;
     std::vector<Id> ids;

@@ -132,7 +132,7 @@ struct EditError : std::runtime_error {
 /// itself, removal of the root or of what is locked. Returns the id of what was inserted or added, otherwise 0.
 Id apply(Scene& scene, const Edit& edit);
 /// One after the other; all of them or, where one throws, none. Returns what each one returned.
-std::vector<Id> apply(Scene& scene, std::span<const Edit> edits);
+std::vector<Id> apply_all(Scene& scene, std::span<const Edit> edits);
 
 /// What the list of steps calls it, as "radius of ring" or "delete sphere"; of several edits "delete sphere and 2
 /// more".

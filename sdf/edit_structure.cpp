@@ -13,11 +13,11 @@ const Node& top_of(const Scene& scene, Id id) {
     return *top;
 }
 
-/// The material that shows on what is in `parent` and has none of its own.
+/// The material that shows on what is in `parent` and has none of its own; 0 where each instance decides.
 Id material_in(const Scene& scene, Id parent) {
     for (const Node* node = find_node(scene, parent); node; node = find_parent(scene, node->id))
         if (node->material != 0) return node->material;
-    return 0;
+    return &top_of(scene, parent) == &scene.root ? scene.materials.front().id : 0;
 }
 
 void check_placement(const Node& node) {
@@ -119,13 +119,14 @@ Id apply_one(Scene& scene, const DissolveNode& e) {
 }
 
 Id apply_one(Scene& scene, const ShowOnly& e) {
-    std::vector<Node*> tops;
-    for (const Id id : e.nodes) {
-        node_for(scene, id);
-        tops.push_back(&node_for(scene, top_of(scene, id).id));
-    }
-    for (Node* top : tops) show_only(*top, e.nodes);
-    for (const Id id : e.nodes) node_for(scene, id).hidden = false;
+    for (const Id id : e.nodes) node_for(scene, id);
+    for (const Id id : e.nodes) show_only(node_for(scene, top_of(scene, id).id), e.nodes);
+    for (const Id id : e.nodes)
+        for (Node* node = find_node(scene, id); node;) {
+            node->hidden = false;
+            const Node* parent = find_parent(scene, node->id);
+            node = parent ? find_node(scene, parent->id) : nullptr;
+        }
     return 0;
 }
 

@@ -10,7 +10,7 @@ History::History(Scene scene) { replace(std::move(scene)); }
 std::vector<Id> History::apply(std::span<const Edit> edits, unsigned gesture) {
     if (edits.empty()) return {};
     Scene changed = scene_;
-    std::vector<Id> ids = farfield::apply(changed, edits);
+    std::vector<Id> ids = apply_all(changed, edits);
     const bool continues = gesture != 0 && current_ > 0 && steps_[current_].gesture == gesture;
     std::string description = continues ? std::move(steps_[current_].description) : describe(scene_, edits);
     Step step{PackedScene(changed, steps_[current_].scene), std::move(description), gesture, next_revision_++};

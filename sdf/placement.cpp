@@ -9,34 +9,36 @@
 namespace farfield {
 namespace {
 
-/// Degrees about x, then y, then z. Rotations are known to single precision, so that more digits would be noise.
+/// Degrees about x, then y, then z, rounded: more digits would be noise.
 glm::vec3 angles_of(const glm::dmat3& m) {
-    const double sine = glm::clamp(-m[0][2], -1.0, 1.0);
-    glm::dvec3 angles(std::atan2(m[1][2], m[2][2]), std::asin(sine), std::atan2(m[0][1], m[0][0]));
-    if (std::abs(sine) > 1.0 - 1e-12) angles.x = 0.0, angles.z = std::atan2(-m[1][0], m[1][1]);  // x and z are one axis
+    const double cosine = std::hypot(m[0][0], m[0][1]);
+    glm::dvec3 angles(std::atan2(m[1][2], m[2][2]), std::atan2(-m[0][2], cosine), std::atan2(m[0][1], m[0][0]));
+    if (cosine < 1e-9) angles.x = 0.0, angles.z = std::atan2(-m[1][0], m[1][1]);  // x and z turn about one axis
     constexpr double step = 1e4;
     return glm::vec3(glm::round(glm::degrees(angles) * step) / step) + 0.0f;
 }
 
-glm::vec3 composed_angles(const Transform& a, const Transform& b) {
-    if (a.rotate == glm::vec3(0.0f)) return b.rotate;
-    if (b.rotate == glm::vec3(0.0f)) return a.rotate;
-    return angles_of(glm::dmat3(rotation_matrix(a)) * glm::dmat3(rotation_matrix(b)));
-}
-
 }  // namespace
 
+// Where nothing is turned, the angles stay as they were typed.
 Transform composed(const Transform& outer, const Transform& inner) {
-    const glm::vec3 moved = rotation_matrix(outer) * (outer.scale * inner.translate);
-    return {outer.translate + moved, composed_angles(outer, inner), outer.scale * inner.scale};
+    const glm::dmat3 turn = exact_rotation_matrix(outer);
+    const glm::vec3 none(0.0f), translate(turn * glm::dvec3(outer.scale * inner.translate));
+    return {outer.translate + translate,
+            outer.rotate == none   ? inner.rotate
+            : inner.rotate == none ? outer.rotate
+                                   : angles_of(turn * exact_rotation_matrix(inner)),
+            outer.scale * inner.scale};
 }
 
 Transform relative_to(const Transform& outer, const Transform& placed) {
-    const glm::mat3 back = glm::transpose(rotation_matrix(outer));
-    const Transform turned_back{glm::vec3(0.0f), angles_of(glm::dmat3(back)), 1.0f};
-    const glm::vec3 angles = outer.rotate == placed.rotate ? glm::vec3(0.0f) : composed_angles(turned_back, placed);
-    return {back * (placed.translate - outer.translate) / outer.scale,
-            outer.rotate == glm::vec3(0.0f) ? placed.rotate : angles, placed.scale / outer.scale};
+    const glm::dmat3 back = glm::transpose(exact_rotation_matrix(outer));
+    const glm::vec3 none(0.0f), translate(back * glm::dvec3(placed.translate - outer.translate));
+    return {translate / outer.scale,
+            outer.rotate == none            ? placed.rotate
+            : outer.rotate == placed.rotate ? none
+                                            : angles_of(back * exact_rotation_matrix(placed)),
+            placed.scale / outer.scale};
 }
 
 Transform frame_of(const Scene& scene, Id node) {

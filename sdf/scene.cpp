@@ -118,7 +118,9 @@ private:
 
 }  // namespace
 
-glm::mat3 rotation_matrix(const Transform& transform) {
+glm::mat3 rotation_matrix(const Transform& transform) { return glm::mat3(exact_rotation_matrix(transform)); }
+
+glm::dmat3 exact_rotation_matrix(const Transform& transform) {
     const glm::dvec3 a = glm::radians(glm::dvec3(transform.rotate));
     const glm::dvec3 c = glm::cos(a), s = glm::sin(a);
     const glm::dmat3 x(1.0, 0.0, 0.0, 0.0, c.x, s.x, 0.0, -s.x, c.x);
@@ -128,7 +130,7 @@ glm::mat3 rotation_matrix(const Transform& transform) {
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row)
             if (std::abs(m[column][row]) < 1e-12) m[column][row] = 0.0;  // quarter turns are exact
-    return glm::mat3(m);
+    return m;
 }
 
 Scene::Scene() {

@@ -31,6 +31,7 @@ struct Transform {
 
 /// The rotation part: parent = rotation * (scale * own) + translate.
 glm::mat3 rotation_matrix(const Transform& transform);
+glm::dmat3 exact_rotation_matrix(const Transform& transform);
 
 struct Node {
     Id id = 0;
