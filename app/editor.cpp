@@ -413,6 +413,14 @@ private:
         return "";
     }
 
+    std::vector<std::string> selected_names() const {
+        std::vector<std::string> names;
+        for (const Id id : selected_nodes(ui_.selected()))
+            if (const Node* node = find_node(document_.scene(), id))
+                names.push_back(display_name(document_.scene(), *node));
+        return names;
+    }
+
     void write_report() {
         CodePanel::Lines lines;
         if (ui_.show_code && ui_.report.on()) lines = layout_.code().lines();
@@ -423,6 +431,8 @@ private:
                           .file = document_.file().string(),
                           .error = files_.error().empty() ? picture_.error : files_.error(),
                           .selection = selection_name(),
+                          .selected = selected_names(),
+                          .step = document_.history().position(),
                           .code = ui_.show_code,
                           .code_lines = lines.count,
                           .selected_lines = lines.selected,
