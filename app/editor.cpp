@@ -6,6 +6,7 @@
 #include "app/file_actions.h"
 #include "app/layout.h"
 #include "app/measuring.h"
+#include "app/selection_commands.h"
 #include "app/selection_history.h"
 #include "app/window.h"
 #include "sdf/scene_file.h"
@@ -173,7 +174,10 @@ private:
     void carry_out(const Edits& edits, unsigned gesture) {
         if (edits.empty()) return;
         try {
-            const Scene before = document_.scene();
+            // Values change what is selected no more than what there is.
+            const bool values_only = std::all_of(
+                edits.begin(), edits.end(), [](const Edit& edit) { return std::holds_alternative<SetValue>(edit); });
+            const Scene before = values_only ? Scene() : document_.scene();
             const Selection selected = ui_.selected();
             const std::size_t position = document_.history().position();
             const std::vector<Id> results = document_.apply(edits, gesture);
@@ -186,7 +190,7 @@ private:
                 gesture_moves_ |= !set || set->object.type != ObjectType::settings;
                 if (const auto* moved = std::get_if<MoveNode>(&edit)) ui_.reveal = moved->node;
             }
-            ui_.select(selection_after(before, document_.scene(), edits, results, selected));
+            if (!values_only) ui_.select(selection_after(before, document_.scene(), edits, results, selected));
             if (ui_.selected() != selected) ui_.reveal = ui_.selection.id;
             selections_.done(document_.history().position(), document_.history().position() == position, selected,
                              ui_.selected());
@@ -234,40 +238,6 @@ private:
         carry_out(viewport.edits, wheel_gesture_);
     }
 
-    /// Of the commands that are nothing but edits of what is selected.
-    std::optional<Edits> edits_for(CommandId id) const {
-        const Scene& scene = document_.scene();
-        const Selection selection = ui_.selected();
-        switch (id) {
-            case CommandId::duplicate:
-                return duplicate_selection(scene, selection);
-            case CommandId::remove:
-                return delete_selection(scene, selection);
-            case CommandId::make_definition:
-                return define_selection(scene, selection);
-            case CommandId::make_independent:
-                return free_selection(scene, selection);
-            case CommandId::move_up:
-                return shift_selection(scene, selection, -1);
-            case CommandId::move_down:
-                return shift_selection(scene, selection, 1);
-            case CommandId::group:
-                return group_selection(scene, selection);
-            case CommandId::dissolve:
-                return dissolve_selection(scene, selection);
-            case CommandId::hide:
-                return hide_selection(scene, selection);
-            case CommandId::show_only:
-                return show_only_selection(scene, selection);
-            case CommandId::show_everything:
-                return show_everything(scene);
-            case CommandId::lock:
-                return lock_selection(scene, selection);
-            default:
-                return std::nullopt;
-        }
-    }
-
     bool enabled(CommandId id) const {
         const Scene& scene = document_.scene();
         switch (id) {
@@ -280,14 +250,16 @@ private:
             case CommandId::copy:
             case CommandId::cut:
                 return ui_.selection.type == ObjectType::node && exists(scene, ui_.selection);
-            default:
-                return !edits_for(id) || !edits_for(id)->empty();
+            default: {
+                const auto edits = edits_for(id, scene, ui_.selected());
+                return !edits || !edits->empty();
+            }
         }
     }
 
     void perform(CommandId id) {
         const Scene& scene = document_.scene();
-        if (const auto edits = edits_for(id)) return carry_out(*edits, 0);
+        if (const auto edits = edits_for(id, scene, ui_.selected())) return carry_out(*edits, 0);
         switch (id) {
             case CommandId::create:
                 files_.create();

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
+#include <vector>
 
 namespace farfield {
 namespace {
@@ -39,16 +41,16 @@ constexpr Command commands[] = {
     {CommandId::remove, "Edit", "delete", "Delete", GLFW_KEY_DELETE, plain, "Del"},
     {CommandId::select_all, "Edit", "select_all", "Select all", 'A', ctrl, "Ctrl+A", true},
     {CommandId::search, "Edit", "search", "Search the tree", 'F', ctrl, "Ctrl+F"},
-    {CommandId::group, "Edit", "group", "Group", 'G', ctrl, "Ctrl+G", true},
-    {CommandId::dissolve, "Edit", "dissolve", "Dissolve", 'G', ctrl | shift, "Ctrl+Shift+G"},
-    {CommandId::move_up, "Edit", "move_up", "Move up", GLFW_KEY_UP, alt, "Alt+Up"},
-    {CommandId::move_down, "Edit", "move_down", "Move down", GLFW_KEY_DOWN, alt, "Alt+Down"},
-    {CommandId::hide, "Edit", "hide", "Hide or show", 'H', plain, "H", true},
-    {CommandId::show_only, "Edit", "show_only", "Show only this", 'H', shift, "Shift+H"},
-    {CommandId::show_everything, "Edit", "show_everything", "Show everything", 'H', alt, "Alt+H"},
-    {CommandId::lock, "Edit", "lock", "Lock or unlock", 'L', plain, "L"},
-    {CommandId::make_definition, "Edit", "make_definition", "Make definition", 'I', ctrl, "Ctrl+I", true},
-    {CommandId::make_independent, "Edit", "make_independent", "Make independent", 'I', ctrl | shift, "Ctrl+Shift+I"},
+    {CommandId::group, "Node", "group", "Group", 'G', ctrl, "Ctrl+G"},
+    {CommandId::dissolve, "Node", "dissolve", "Dissolve", 'G', ctrl | shift, "Ctrl+Shift+G"},
+    {CommandId::move_up, "Node", "move_up", "Move up", GLFW_KEY_UP, alt, "Alt+Up", true},
+    {CommandId::move_down, "Node", "move_down", "Move down", GLFW_KEY_DOWN, alt, "Alt+Down"},
+    {CommandId::hide, "Node", "hide", "Hide or show", 'H', plain, "H", true},
+    {CommandId::show_only, "Node", "show_only", "Show only this", 'H', shift, "Shift+H"},
+    {CommandId::show_everything, "Node", "show_everything", "Show everything", 'H', alt, "Alt+H"},
+    {CommandId::lock, "Node", "lock", "Lock or unlock", 'L', plain, "L"},
+    {CommandId::make_definition, "Node", "make_definition", "Make definition", 'I', ctrl, "Ctrl+I", true},
+    {CommandId::make_independent, "Node", "make_independent", "Make independent", 'I', ctrl | shift, "Ctrl+Shift+I"},
     {CommandId::frame_selection, "View", "frame_selection", "Frame selection", 'F', plain, "F", true},
     {CommandId::frame_all, "View", "frame_all", "Frame all", GLFW_KEY_HOME, plain, "Home, Shift+F"},
     {CommandId::reset_camera, "View", "reset_camera", "Reset camera", GLFW_KEY_HOME, shift, "Shift+Home"},
@@ -59,7 +61,7 @@ constexpr Command commands[] = {
     {CommandId::shortcuts, "Help", "shortcuts", "Keys and mouse", GLFW_KEY_F1, plain, "F1"},
 };
 
-constexpr const char* menus[] = {"File", "Edit", "View", "Help"};
+constexpr const char* menus[] = {"File", "Edit", "Node", "View", "Help"};
 
 constexpr std::pair<const char*, const char*> mouse[] = {
     {"Click in the picture", "Select the shape, then the groups around it; Ctrl adds or takes out"},
@@ -105,16 +107,6 @@ bool code_switch(Ui& ui) {
     return pressed;
 }
 
-void table_line(const Ui& ui, const char* left, const char* right) {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::PushStyleColor(ImGuiCol_Text, ui.theme.accent);
-    ImGui::TextUnformatted(left);
-    ImGui::PopStyleColor();
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(right);
-}
-
 }  // namespace
 
 std::optional<CommandId> command_for(const KeyPress& press) {
@@ -156,14 +148,30 @@ std::optional<CommandId> command_menus(Ui& ui, const std::function<bool(CommandI
 
 void shortcut_list(Ui& ui) {
     if (!ui.show_shortcuts) return;
+    std::vector<std::pair<const char*, const char*>> lines(std::begin(mouse), std::end(mouse));
+    for (const Command& command : commands) lines.emplace_back(command.key_text, command.label);
+    lines.emplace_back("1 ... 9", "Views, from Result to Step count");
+    // As many columns as the window's height asks for.
+    const float line = ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().CellPadding.y;
+    const float room = std::max(0.8f * ImGui::GetMainViewport()->WorkSize.y, line);
+    const int columns = 1 + static_cast<int>(static_cast<float>(lines.size()) * line / room);
+    const std::size_t rows = (lines.size() + static_cast<std::size_t>(columns) - 1) / static_cast<std::size_t>(columns);
     ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
     if (ImGui::Begin(
             "Keys and mouse", &ui.show_shortcuts,
             ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse)) {
-        if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_PadOuterX)) {
-            for (const auto& [action, effect] : mouse) table_line(ui, action, effect);
-            for (const Command& command : commands) table_line(ui, command.key_text, command.label);
-            table_line(ui, "1 ... 9", "Views, from Result to Step count");
+        if (ImGui::BeginTable("keys", 2 * columns, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_PadOuterX)) {
+            for (std::size_t i = 0; i < rows * static_cast<std::size_t>(columns); ++i) {
+                ImGui::TableNextColumn();
+                const std::size_t index =
+                    i % static_cast<std::size_t>(columns) * rows + i / static_cast<std::size_t>(columns);
+                const auto [key, effect] = index < lines.size() ? lines[index] : std::pair("", "");
+                ImGui::PushStyleColor(ImGuiCol_Text, ui.theme.accent);
+                ImGui::TextUnformatted(key);
+                ImGui::PopStyleColor();
+                ImGui::TableNextColumn();
+                ImGui::TextUnformatted(effect);
+            }
             ImGui::EndTable();
         }
     }

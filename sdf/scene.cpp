@@ -70,6 +70,7 @@ std::uint64_t expanded_count(const Node& node, const Counts& of_definitions) {
     const auto sum = [](std::uint64_t a, std::uint64_t b) {
         return a > std::numeric_limits<std::uint64_t>::max() - b ? std::numeric_limits<std::uint64_t>::max() : a + b;
     };
+    if (node.hidden) return 0;
     std::uint64_t count = 1;
     if (const auto found = of_definitions.find(node.definition); found != of_definitions.end())
         count = sum(count, found->second);

@@ -157,9 +157,9 @@ std::set<Id> filled_definitions(const Scene& scene);  ///< those that are not em
 
 int count_nodes(const Node& node);    ///< itself and everything below
 int count_nodes(const Scene& scene);  ///< the root, the definitions and everything below
-/// How many nodes the tree would have with the content of its definition below each instance: what a compiler that
-/// inlines every call has to deal with. Definitions that use each other double that easily; the largest value stands
-/// for everything beyond.
+/// How many nodes the tree would have with the content of its definition below each instance and without what is
+/// hidden: what a compiler that inlines every call has to deal with. Definitions that use each other double that
+/// easily; the largest value stands for everything beyond.
 std::uint64_t expanded_node_count(const Scene& scene);
 /// How many instances of the definition there are, in the tree and in other definitions.
 int count_uses(const Scene& scene, Id definition);

@@ -137,6 +137,12 @@ def hide_and_lock(editor):
     report = editor.wait("a message", lambda r: r["error"])
     check(report["error"] == "tall block is locked" and report["step"] == 5, f"refused, not: {report['error']}")
     editor.place("inspector/unlock")
+    editor.key("ctrl+a")
+    editor.wait("all", lambda r: len(r["selected"]) > 4)
+    editor.key("l")
+    editor.wait("all locked", lambda r: r["step"] == 6)
+    editor.click("viewport")
+    editor.wait("nothing but the scene", lambda r: r["selected"] == ["scene"])
     undo_all(editor)
 
 

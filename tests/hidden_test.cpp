@@ -35,6 +35,7 @@ TEST(Hidden, CodeAndParametersAreThoseOfASceneWithoutTheNodes) {
             ASSERT_EQ(a.text, b.text) << "seed " << seed;
             ASSERT_EQ(a.parameters, b.parameters) << "seed " << seed;
         }
+        ASSERT_EQ(expanded_node_count(scene), expanded_node_count(without)) << "seed " << seed;
         const FieldEvaluator a(scene), b(without);
         for (int i = 0; i < 20; ++i) {
             glm::vec3 p;
