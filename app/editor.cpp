@@ -246,7 +246,8 @@ private:
             case CommandId::redo:
                 return document_.history().can_redo();
             case CommandId::rename:
-                return ui_.selection.id != 0 && exists(scene, ui_.selection);
+                return ui_.selection.id != 0 && exists(scene, ui_.selection) &&
+                       selected_nodes(ui_.selected()).size() < 2;
             case CommandId::copy:
             case CommandId::cut:
                 return ui_.selection.type == ObjectType::node && exists(scene, ui_.selection);
@@ -305,10 +306,10 @@ private:
                 ui_.tree_search.focus = true;
                 break;
             case CommandId::frame_selection:
-                frame_object(ui_.selection);
+                frame_box(selection_box());
                 break;
             case CommandId::frame_all:
-                frame_object({ObjectType::node, scene.root.id});
+                frame_box(framed_box(scene, {ObjectType::node, scene.root.id}));
                 break;
             case CommandId::reset_camera:
                 carry_out(camera_edits(scene.camera, document_.first_camera()), ++last_gesture_);
@@ -333,13 +334,20 @@ private:
         }
     }
 
-    /// Moves the camera to where it sees the whole of a node or light; everything instead of what has no place.
-    void frame_object(ObjectRef object) {
+    /// Around all that is selected; around everything for what has no place.
+    Box selection_box() const {
         const Scene& scene = document_.scene();
+        Box box = framed_box(scene, ui_.selection);
+        for (const Id id : selected_nodes(ui_.selected()))
+            if (find_node(scene, id)) box = box.united(framed_box(scene, {ObjectType::node, id}));
+        return box;
+    }
+
+    /// Moves the camera to where it sees the whole of it.
+    void frame_box(const Box& box) {
+        const Camera& camera = document_.scene().camera;
         const glm::vec2 size(size_);
-        const Box box = framed_box(scene, object);
-        carry_out(camera_edits(scene.camera, framed(scene.camera, box, size.x / std::max(size.y, 1.0f))),
-                  ++last_gesture_);
+        carry_out(camera_edits(camera, framed(camera, box, size.x / std::max(size.y, 1.0f))), ++last_gesture_);
     }
 
     void keyboard() {

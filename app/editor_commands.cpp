@@ -46,7 +46,7 @@ constexpr Command commands[] = {
     {CommandId::move_up, "Node", "move_up", "Move up", GLFW_KEY_UP, alt, "Alt+Up", true},
     {CommandId::move_down, "Node", "move_down", "Move down", GLFW_KEY_DOWN, alt, "Alt+Down"},
     {CommandId::hide, "Node", "hide", "Hide or show", 'H', plain, "H", true},
-    {CommandId::show_only, "Node", "show_only", "Show only this", 'H', shift, "Shift+H"},
+    {CommandId::show_only, "Node", "show_only", "Show only this, or all again", 'H', shift, "Shift+H"},
     {CommandId::show_everything, "Node", "show_everything", "Show everything", 'H', alt, "Alt+H"},
     {CommandId::lock, "Node", "lock", "Lock or unlock", 'L', plain, "L"},
     {CommandId::make_definition, "Node", "make_definition", "Make definition", 'I', ctrl, "Ctrl+I", true},

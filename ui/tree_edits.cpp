@@ -66,6 +66,11 @@ void show(const Node& node, Edits& edits) {
     for (const Node& child : node.children) show(child, edits);
 }
 
+/// Of a scene before and after edits of nothing but what is hidden.
+bool same_shown(const Node& a, const Node& b) {
+    return a.hidden == b.hidden && std::equal(a.children.begin(), a.children.end(), b.children.begin(), same_shown);
+}
+
 bool is_placement(std::string_view key) {
     const auto all = fields<Transform>();
     return std::any_of(all.begin(), all.end(), [&](const auto& field) { return key == field.parameter.key; });
@@ -222,7 +227,13 @@ Edits hide_selection(const Scene& scene, const Selection& selection) {
 Edits show_only_selection(const Scene& scene, const Selection& selection) {
     std::vector<Id> nodes = movable(scene, selection);
     if (nodes.empty()) return {};
-    return {ShowOnly{std::move(nodes)}};
+    Scene changed = scene;
+    const Edit edit = ShowOnly{std::move(nodes)};
+    farfield::apply(changed, edit);
+    return std::equal(changed.definitions.begin(), changed.definitions.end(), scene.definitions.begin(), same_shown) &&
+                   same_shown(changed.root, scene.root)
+               ? show_everything(scene)
+               : Edits{edit};
 }
 
 Edits show_everything(const Scene& scene) {

@@ -38,6 +38,7 @@ Edits dissolve_selection(const Scene& scene, const Selection& selection);
 
 /// Hides what shows of the selected nodes; shows them where all are hidden.
 Edits hide_selection(const Scene& scene, const Selection& selection);
+/// Where nothing else shows already, everything.
 Edits show_only_selection(const Scene& scene, const Selection& selection);
 Edits show_everything(const Scene& scene);
 /// Locks what is not locked of the selected nodes; unlocks them where all are locked.

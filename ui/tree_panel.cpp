@@ -41,6 +41,8 @@ void append(Edits& to, Edits from) {
 class Tree {
 public:
     Tree(Ui& ui, const Scene& scene) : ui_(ui), scene_(scene), searching_(has_words(ui.tree_search.text)) {
+        const std::vector<Id> nodes = selected_nodes(ui.selected());
+        selected_.insert(nodes.begin(), nodes.end());
         if (!searching_) return;
         search(scene.root);
         for (const Node& definition : scene.definitions) search(definition);
@@ -54,7 +56,7 @@ public:
         ImGuiTreeNodeFlags flags = ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_SpanAvailWidth |
                                    ImGuiTreeNodeFlags_DefaultOpen | ImGuiTreeNodeFlags_FramePadding;
         if (leaf) flags |= ImGuiTreeNodeFlags_Leaf;
-        const bool selected = is_selected(ui_.selected(), node.id);
+        const bool selected = selected_.contains(node.id);
         if (selected) flags |= ImGuiTreeNodeFlags_Selected;
         if (!leaf && (searching_ || (ui_.reveal != 0 && ui_.reveal != node.id && contains(node, ui_.reveal))))
             ImGui::SetNextItemOpen(true);
@@ -118,10 +120,10 @@ private:
     /// A press selects, except on the arrow. On one of several selected nodes only its release does, or they could not
     /// be dragged. A right-click selects what its menu is about.
     void select_by_mouse(const Node& node) {
-        const bool toggled_open = ImGui::IsItemToggledOpen(), among = is_selected(ui_.selected(), node.id);
+        const bool toggled_open = ImGui::IsItemToggledOpen(), among = selected_.contains(node.id);
         const ImGuiIO& io = ImGui::GetIO();
         const ObjectRef object{ObjectType::node, node.id};
-        const bool several = selected_nodes(ui_.selected()).size() > 1;
+        const bool several = selected_.size() > 1;
         if (ImGui::IsItemClicked() && !toggled_open) {
             if (io.KeyCtrl)
                 ui_.select(toggled(ui_.selected(), node.id));
@@ -289,6 +291,7 @@ private:
     Ui& ui_;
     const Scene& scene_;
     bool searching_;
+    std::unordered_set<Id> selected_;
     std::unordered_set<Id> shown_;  ///< while searching: what was found, with what it is in
     Id first_found_ = 0;
     std::vector<Id> rows_;  ///< in the order of drawing
