@@ -7,17 +7,11 @@
 namespace farfield {
 namespace {
 
-const Node& top_of(const Scene& scene, Id id) {
-    const Node* top = find_node(scene, id);
-    while (const Node* parent = find_parent(scene, top->id)) top = parent;
-    return *top;
-}
-
 /// The material that shows on what is in `parent` and has none of its own; 0 where each instance decides.
 Id material_in(const Scene& scene, Id parent) {
     for (const Node* node = find_node(scene, parent); node; node = find_parent(scene, node->id))
         if (node->material != 0) return node->material;
-    return &top_of(scene, parent) == &scene.root ? scene.materials.front().id : 0;
+    return find_top(scene, parent) == &scene.root ? scene.materials.front().id : 0;
 }
 
 void check_placement(const Node& node) {
@@ -66,7 +60,7 @@ Id apply_one(Scene& scene, const WrapNodes& e) {
     for (const Id id : e.nodes) {
         const Node& node = node_for(scene, id);
         if (!find_parent(scene, id)) throw EditError(fmt::format("{} stays where it is", display_name(node)));
-        if (&top_of(scene, id) != &top_of(scene, e.nodes[0]))
+        if (find_top(scene, id) != find_top(scene, e.nodes[0]))
             throw EditError(fmt::format("{} is in another definition", display_name(scene, node)));
         if (std::count_if(e.nodes.begin(), e.nodes.end(), [&](Id other) { return contains_any(node, {other}); }) > 1)
             throw EditError(fmt::format("{} cannot be put beside what is in it", display_name(node)));
@@ -120,7 +114,7 @@ Id apply_one(Scene& scene, const DissolveNode& e) {
 
 Id apply_one(Scene& scene, const ShowOnly& e) {
     for (const Id id : e.nodes) node_for(scene, id);
-    for (const Id id : e.nodes) show_only(node_for(scene, top_of(scene, id).id), e.nodes);
+    for (const Id id : e.nodes) show_only(node_for(scene, find_top(scene, id)->id), e.nodes);
     for (const Id id : e.nodes)
         for (Node* node = find_node(scene, id); node;) {
             node->hidden = false;

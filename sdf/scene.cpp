@@ -184,6 +184,13 @@ const Node* find_parent(const Scene& scene, Id id) {
         if (const Node* found = find_parent_below(definition, id)) return found;
     return nullptr;
 }
+const Node* find_top(const Scene& scene, Id id) {
+    if (id == 0) return nullptr;
+    if (find_below(scene.root, id)) return &scene.root;
+    for (const Node& definition : scene.definitions)
+        if (find_below(definition, id)) return &definition;
+    return nullptr;
+}
 std::vector<Id> topmost(const Scene& scene, const std::vector<Id>& nodes) {
     const std::set<Id> wanted(nodes.begin(), nodes.end());
     std::vector<Id> found;

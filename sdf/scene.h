@@ -128,6 +128,8 @@ const Node* find_node(const Scene& scene, Id id);
 Node* find_node(Scene& scene, Id id);
 /// The parent of node `id`; null for the root, for definitions and for unknown ids.
 const Node* find_parent(const Scene& scene, Id id);
+/// The root or the definition that it is or is in; null for unknown ids.
+const Node* find_top(const Scene& scene, Id id);
 /// Those of the nodes that exist and are in none of the others, each once, in the order of the tree.
 std::vector<Id> topmost(const Scene& scene, const std::vector<Id>& nodes);
 const Material* find_material(const Scene& scene, Id id);

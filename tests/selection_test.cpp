@@ -121,6 +121,25 @@ TEST(TreeEdits, DroppedNodesKeepTheirOrderWhereverTheyGo) {
     EXPECT_THROW(apply_all(s.scene, move_nodes(s.scene, {s.e, s.group}, s.group, 0)), EditError);
 }
 
+TEST(TreeEdits, DroppedNodesStayWhereTheyAreInSpace) {
+    Small s;
+    apply(s.scene, SetValue{Small::node(s.group), "translate", glm::vec3(1.0f, 2.0f, 3.0f)});
+    apply(s.scene, SetValue{Small::node(s.group), "rotate", glm::vec3(0.0f, 90.0f, 0.0f)});
+    apply(s.scene, SetValue{Small::node(s.group), "scale", glm::vec3(2.0f, 0, 0)});
+    apply(s.scene, SetValue{Small::node(s.d), "translate", glm::vec3(0.5f, 0.0f, 0.0f)});
+    const Edits edits = move_nodes(s.scene, {s.d}, s.group, -1);
+    EXPECT_EQ(describe(s.scene, edits), "move d");
+    apply_all(s.scene, edits);
+    const Transform t = find_node(s.scene, s.d)->transform;
+    // A quarter turn about y takes z to x.
+    EXPECT_EQ(t.translate, glm::vec3(1.5f, -1.0f, -0.25f));
+    EXPECT_EQ(t.rotate, glm::vec3(0.0f, -90.0f, 0.0f));
+    EXPECT_EQ(t.scale, 0.5f);
+    apply_all(s.scene, move_nodes(s.scene, {s.d}, s.root, 0));
+    EXPECT_EQ(value(s.scene, Small::node(s.d), "translate"), glm::vec3(0.5f, 0.0f, 0.0f));
+    EXPECT_EQ(value(s.scene, Small::node(s.d), "rotate"), glm::vec3(0.0f));
+}
+
 TEST(TreeEdits, GroupsAndDissolvesWithTheSelection) {
     Small s;
     Selection selection = select(Ids{s.d, s.a});

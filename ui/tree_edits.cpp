@@ -1,6 +1,7 @@
 #include "ui/tree_edits.h"
 
 #include "sdf/excerpt.h"
+#include "sdf/placement.h"
 #include "sdf/scene_file.h"
 
 #include <algorithm>
@@ -69,6 +70,21 @@ void show(const Node& node, Edits& edits) {
 /// Of a scene before and after edits of nothing but what is hidden.
 bool same_shown(const Node& a, const Node& b) {
     return a.hidden == b.hidden && std::equal(a.children.begin(), a.children.end(), b.children.begin(), same_shown);
+}
+
+/// What keeps a node where it is when it gets into another parent; nothing where that cannot be.
+Edits stay_in_place(const Scene& scene, Id id, Id to) {
+    const Node* from = find_parent(scene, id);
+    if (!from || from->id == to || find_top(scene, id) != find_top(scene, to)) return {};
+    const Transform now = find_node(scene, id)->transform;
+    const Transform wanted = relative_to(frame_of(scene, to), composed(frame_of(scene, from->id), now));
+    Edits edits;
+    for (const auto& field : fields<Transform>()) {
+        const glm::vec3 value = field.get(wanted);
+        if (!why_refused(field.parameter, value).empty()) return {};
+        if (value != field.get(now)) edits.push_back(SetValue{{ObjectType::node, id}, field.parameter.key, value});
+    }
+    return edits;
 }
 
 bool is_placement(std::string_view key) {
@@ -194,6 +210,7 @@ Edits move_nodes(const Scene& scene, const std::vector<Id>& nodes, Id parent, in
         if (*id != before) {
             const Node& now = *find_node(plan.scene(), parent);
             plan.add(MoveNode{*id, parent, before == 0 ? -1 : index_in(now, before)});
+            for (Edit& edit : stay_in_place(scene, *id, parent)) plan.add(std::move(edit));
         }
         if (plan.refused()) break;
         before = *id;

@@ -27,7 +27,7 @@ Edits free_selection(const Scene& scene, const Selection& selection);
 
 /// Moves the selected nodes among their siblings, by -1 or 1.
 Edits shift_selection(const Scene& scene, const Selection& selection, int by);
-/// Moves nodes before child `index` of `parent`, -1 for its end, in their order.
+/// Moves nodes before child `index` of `parent`, -1 for its end, in their order. They stay where they are in space.
 Edits move_nodes(const Scene& scene, const std::vector<Id>& nodes, Id parent, int index);
 
 /// Puts the selected nodes into a new union, or into another operation.
