@@ -1,5 +1,5 @@
-// What the edits in edit_*.cpp have in common. Each `apply_one` may leave the scene half changed where it throws;
-// `apply` in edit.cpp sees to it that nobody notices.
+// What the edits in edit_*.cpp have in common. Those that change how nodes are nested may leave the scene half changed
+// where they throw: `apply` carries them out on a copy. The others change nothing before they are sure.
 #pragma once
 
 #include "sdf/edit.h"

@@ -78,12 +78,9 @@ Id apply_one(Scene& scene, const WrapNodes& e) {
     }
     for (const Id id : e.nodes) {
         const Id from = find_parent(scene, id)->id;
-        Node node = *find_node(scene, id);
-        if (from != parent) {
-            check_unlocked(scene, id);
-            stay(scene, node, from, parent);
-        }
-        taken_out(scene, id);
+        if (from != parent) check_unlocked(scene, id);
+        Node node = taken_out(scene, id);
+        if (from != parent) stay(scene, node, from, parent);
         node_for(scene, wrapper_id).children.push_back(std::move(node));
     }
     return wrapper_id;
