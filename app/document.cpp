@@ -27,10 +27,12 @@ std::shared_ptr<const Scene> Document::snapshot() {
     return snapshot_;
 }
 
-Id Document::apply(const Edit& edit, unsigned gesture) {
-    const Id id = history_.apply(edit, gesture);
-    if (const auto* set = std::get_if<SetCode>(&edit)) trust_.accept(*find_node(scene(), set->node)->code);
-    return id;
+std::vector<Id> Document::apply(const Edits& edits, unsigned gesture) {
+    std::vector<Id> ids = history_.apply(edits, gesture);
+    for (const Edit& edit : edits)
+        if (const auto* set = std::get_if<SetCode>(&edit))
+            if (const Node* node = find_node(scene(), set->node); node && node->code) trust_.accept(*node->code);
+    return ids;
 }
 
 void Document::reset() {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "sdf/code_trust.h"
-#include "sdf/edit.h"
+#include "sdf/history.h"
 
 #include <filesystem>
 #include <memory>
@@ -25,12 +25,14 @@ public:
     const History& history() const { return history_; }
     std::uint64_t revision() const { return history_.revision(); }
 
-    Id apply(const Edit& edit, unsigned gesture);
+    /// All of them or none, as one step; see History.
+    std::vector<Id> apply(const Edits& edits, unsigned gesture);
     const CodeTrust& trust() const { return trust_; }
     void accept(const CustomCode& code) { trust_.accept(code); }
-    void cancel(unsigned gesture) { history_.cancel(gesture); }
     void undo() { history_.undo(); }
     void redo() { history_.redo(); }
+    void go_to(std::size_t step) { history_.go_to(step); }
+    void cancel(unsigned gesture) { history_.cancel(gesture); }
 
     void reset();
     /// The scene of `file` takes this one's place.

@@ -6,9 +6,11 @@
 #include "app/file_actions.h"
 #include "app/layout.h"
 #include "app/measuring.h"
+#include "app/selection_commands.h"
+#include "app/selection_history.h"
 #include "app/window.h"
 #include "sdf/scene_file.h"
-#include "ui/tree_panel.h"
+#include "ui/tree_edits.h"
 
 #include <fmt/format.h>
 #include <imgui_internal.h>
@@ -108,11 +110,14 @@ private:
 
         const glm::vec2 size(window_.size());
         ui_.trust = &trust_;
+        ui_.in_code = false;
         const ViewportInput input{document_.snapshot(), flight()};
         const LayoutResult result = layout_.draw(ui_, {size.x, size.y}, document_, input, picture_, files_.error(),
                                                  measuring_.results(), [&](CommandId id) { return enabled(id); });
         ui_.hand_in = false;
-        carry_out(result.edits, gesture_);
+        for (const Edits& edits : result.edits) carry_out(edits, gesture_);
+        if (!ui_.problem.empty()) files_.edit_failed(std::exchange(ui_.problem, {}));
+        if (result.step) go_to_step(*result.step);
         carry_out_camera(result.viewport);
         if (const auto code = std::exchange(ui_.run, nullptr)) document_.accept(*code);
         if (std::exchange(save_, false)) files_.save();
@@ -143,13 +148,16 @@ private:
     bool keyboard_changes_hands() const {
         const ImGuiContext& g = *ImGui::GetCurrentContext();
         const bool moving = g.NavMoveSubmitted && (g.NavMoveFlags & ImGuiNavMoveFlags_Tabbing);
-        return ui_.focus_name || ui_.open_add || files_.wants_keyboard() || moving;
+        return ui_.focus_name || ui_.open_add || ui_.tree_search.focus || files_.wants_keyboard() || moving;
     }
 
     void show_new_document() {
         layout_.forget();
         shown_document_ = document_.generation();
-        ui_.selection = ui_.inspected = {ObjectType::node, document_.scene().root.id};
+        ui_.select(select(ObjectRef{ObjectType::node, document_.scene().root.id}));
+        ui_.inspected = ui_.selection;
+        ui_.tree_search = {};
+        selections_.clear();
         ui_.view = View::result;
     }
 
@@ -174,27 +182,44 @@ private:
     }
 
     void carry_out(const Edits& edits, unsigned gesture) {
-        for (const Edit& edit : edits) {
-            try {
-                const ObjectRef next = selection_after(edit);
-                const Id id = document_.apply(edit, gesture);
-                gesture_edited_ = true;
-                if (!moves_camera(edit)) files_.edit_succeeded();
-                // Settings are no object in the scene that could be followed quicker at a lower resolution, which would
-                // discard the samples that most of them keep.
+        if (edits.empty()) return;
+        try {
+            // Values change what is selected no more than what there is.
+            const bool values_only = std::all_of(
+                edits.begin(), edits.end(), [](const Edit& edit) { return std::holds_alternative<SetValue>(edit); });
+            const Scene before = values_only ? Scene() : document_.scene();
+            const Selection selected = ui_.selected();
+            const std::size_t position = document_.history().position();
+            const std::vector<Id> results = document_.apply(edits, gesture);
+            gesture_edited_ = true;
+            if (!std::all_of(edits.begin(), edits.end(), moves_camera)) files_.edit_succeeded();
+            // Settings are no object in the scene that could be followed quicker at a lower resolution, which would
+            // discard the samples that most of them keep.
+            for (const Edit& edit : edits) {
                 const auto* set = std::get_if<SetValue>(&edit);
                 gesture_moves_ |= !set || set->object.type != ObjectType::settings;
-                ui_.selection = next;
-                if (std::holds_alternative<InsertNode>(edit) || std::holds_alternative<MakeDefinition>(edit) ||
-                    std::holds_alternative<MakeIndependent>(edit))
-                    ui_.selection = {ObjectType::node, ui_.reveal = id};
-                if (std::holds_alternative<AddMaterial>(edit)) ui_.selection = {ObjectType::material, ui_.reveal = id};
-                if (std::holds_alternative<AddLight>(edit)) ui_.selection = {ObjectType::light, ui_.reveal = id};
                 if (const auto* moved = std::get_if<MoveNode>(&edit)) ui_.reveal = moved->node;
-            } catch (const EditError& error) {
-                files_.edit_failed(error.what());
             }
+            if (!values_only) ui_.select(selection_after(before, document_.scene(), edits, results, selected));
+            if (ui_.selected() != selected) ui_.reveal = ui_.selection.id;
+            selections_.done(document_.history().position(), document_.history().position() == position, selected,
+                             ui_.selected());
+        } catch (const EditError& error) {
+            files_.edit_failed(error.what());
         }
+    }
+
+    /// To another step of the history, with what was selected then.
+    void go_to_step(std::size_t step) {
+        const std::size_t from = document_.history().position();
+        document_.go_to(step);
+        files_.edit_succeeded();
+        const std::size_t position = document_.history().position();
+        if (position == from) return;
+        const Selection selection = selections_.at(from, position);
+        if (!exists(document_.scene(), selection.primary) || selection == ui_.selected()) return;
+        ui_.select(selection);
+        ui_.reveal = selection.primary.id;
     }
 
     /// What a hand is changing is as it was before; the mouse lets go of it.
@@ -205,24 +230,22 @@ private:
         gesture_ = ++last_gesture_;
     }
 
+    void copy() const { ImGui::SetClipboardText(copied_selection(document_.scene(), ui_.selected()).c_str()); }
+
+    void paste() {
+        const char* text = ImGui::GetClipboardText();
+        try {
+            carry_out(paste_at_selection(document_.scene(), ui_.selected(), text ? text : ""), 0);
+        } catch (const EditError& error) {
+            files_.edit_failed(error.what());
+        }
+    }
+
     void carry_out_camera(const ViewportResult& viewport) {
         if (!viewport.wheel) return carry_out(viewport.edits, gesture_);
         if (seconds() > wheel_until_) wheel_gesture_ = ++last_gesture_;
         wheel_until_ = seconds() + wheel_rest;
         carry_out(viewport.edits, wheel_gesture_);
-    }
-
-    /// What is selected once `edit` is done: a neighbour of a removed node, otherwise the same as before.
-    ObjectRef selection_after(const Edit& edit) const {
-        const auto* removed = std::get_if<RemoveNode>(&edit);
-        const Node* parent = removed ? find_parent(document_.scene(), removed->node) : nullptr;
-        if (!parent) return ui_.selection;
-        const auto& siblings = parent->children;
-        const auto it =
-            std::find_if(siblings.begin(), siblings.end(), [&](const Node& n) { return n.id == removed->node; });
-        if (it + 1 != siblings.end()) return {ObjectType::node, (it + 1)->id};
-        if (it != siblings.begin()) return {ObjectType::node, (it - 1)->id};
-        return {ObjectType::node, parent->id};
     }
 
     bool enabled(CommandId id) const {
@@ -232,22 +255,16 @@ private:
                 return document_.history().can_undo();
             case CommandId::redo:
                 return document_.history().can_redo();
-            case CommandId::duplicate:
-                return !duplicate_selection(ui_, scene).empty();
-            case CommandId::remove:
-                return !delete_selection(ui_, scene).empty();
-            case CommandId::make_definition:
-                return !define_selection(ui_, scene).empty();
-            case CommandId::make_independent:
-                return !free_selection(ui_, scene).empty();
-            case CommandId::move_up:
-                return !shift_selection(ui_, scene, -1).empty();
-            case CommandId::move_down:
-                return !shift_selection(ui_, scene, 1).empty();
             case CommandId::rename:
-                return ui_.selection.id != 0 && exists(scene, ui_.selection);
-            default:
-                return true;
+                return ui_.selection.id != 0 && exists(scene, ui_.selection) &&
+                       selected_nodes(ui_.selected()).size() < 2;
+            case CommandId::copy:
+            case CommandId::cut:
+                return ui_.selection.type == ObjectType::node && exists(scene, ui_.selection);
+            default: {
+                const auto edits = edits_for(id, scene, ui_.selected());
+                return !edits || !edits->empty();
+            }
         }
     }
 
@@ -256,6 +273,7 @@ private:
         if (choose_tool(ui_.tools, id)) return;
         if (const glm::vec3 direction = view_direction(id); direction != glm::vec3(0.0f))
             return carry_out(camera_edits(scene.camera, looking(scene.camera, direction)), ++last_gesture_);
+        if (const auto edits = edits_for(id, scene, ui_.selected())) return carry_out(*edits, 0);
         switch (id) {
             case CommandId::create:
                 files_.create();
@@ -273,45 +291,44 @@ private:
                 files_.quit();
                 break;
             case CommandId::undo:
-                document_.undo();
-                files_.edit_succeeded();
+                go_to_step(document_.history().position() - 1);
                 break;
             case CommandId::redo:
-                document_.redo();
-                files_.edit_succeeded();
+                go_to_step(document_.history().position() + 1);
                 break;
             case CommandId::add:
                 ui_.open_add = true;
                 break;
-            case CommandId::duplicate:
-                carry_out(duplicate_selection(ui_, scene), 0);
-                break;
             case CommandId::rename:
                 ui_.focus_name = true;
                 break;
-            case CommandId::remove:
-                carry_out(delete_selection(ui_, scene), 0);
+            case CommandId::cut:
+                copy();
+                carry_out(delete_selection(scene, ui_.selected()), 0);
                 break;
-            case CommandId::make_definition:
-                carry_out(define_selection(ui_, scene), 0);
+            case CommandId::copy:
+                copy();
                 break;
-            case CommandId::make_independent:
-                carry_out(free_selection(ui_, scene), 0);
+            case CommandId::paste:
+                paste();
                 break;
-            case CommandId::move_up:
-                carry_out(shift_selection(ui_, scene, -1), 0);
+            case CommandId::select_all:
+                ui_.select(everything(scene, ui_.selected()));
                 break;
-            case CommandId::move_down:
-                carry_out(shift_selection(ui_, scene, 1), 0);
+            case CommandId::search:
+                ui_.tree_search.focus = true;
                 break;
             case CommandId::frame_selection:
-                frame_object(ui_.selection);
+                frame_box(selection_box());
                 break;
             case CommandId::frame_all:
-                frame_object({ObjectType::node, scene.root.id});
+                frame_box(framed_box(scene, {ObjectType::node, scene.root.id}));
                 break;
             case CommandId::reset_camera:
                 carry_out(camera_edits(scene.camera, document_.first_camera()), ++last_gesture_);
+                break;
+            case CommandId::history:
+                ui_.show_history = !ui_.show_history;
                 break;
             case CommandId::statistics:
                 ui_.show_statistics = !ui_.show_statistics;
@@ -330,13 +347,20 @@ private:
         }
     }
 
-    /// Moves the camera to where it sees the whole of a node or light; everything instead of what has no place.
-    void frame_object(ObjectRef object) {
+    /// Around all that is selected; around everything for what has no place.
+    Box selection_box() const {
         const Scene& scene = document_.scene();
+        Box box = framed_box(scene, ui_.selection);
+        for (const Id id : selected_nodes(ui_.selected()))
+            if (find_node(scene, id)) box = box.united(framed_box(scene, {ObjectType::node, id}));
+        return box;
+    }
+
+    /// Moves the camera to where it sees the whole of it.
+    void frame_box(const Box& box) {
+        const Camera& camera = document_.scene().camera;
         const glm::vec2 size(size_);
-        const Box box = framed_box(scene, object);
-        carry_out(camera_edits(scene.camera, framed(scene.camera, box, size.x / std::max(size.y, 1.0f))),
-                  ++last_gesture_);
+        carry_out(camera_edits(camera, framed(camera, box, size.x / std::max(size.y, 1.0f))), ++last_gesture_);
     }
 
     void keyboard() {
@@ -348,6 +372,7 @@ private:
             if (press.key == escape_key && held_ && ImGui::IsAnyMouseDown() && !ImGui::GetIO().WantTextInput)
                 cancel_gesture();
             const bool busy = ImGui::GetIO().WantTextInput || (held_ && ImGui::IsAnyMouseDown());
+            if (ui_.in_code && (command == CommandId::select_all || command == CommandId::cut)) continue;
             if (asked || (busy && command != CommandId::save)) continue;
             if (command == CommandId::save && ImGui::GetIO().WantTextInput) {
                 ImGui::ClearActiveID();  // what is being typed belongs to what is saved
@@ -381,6 +406,14 @@ private:
         return "";
     }
 
+    std::vector<std::string> selected_names() const {
+        std::vector<std::string> names;
+        for (const Id id : selected_nodes(ui_.selected()))
+            if (const Node* node = find_node(document_.scene(), id))
+                names.push_back(display_name(document_.scene(), *node));
+        return names;
+    }
+
     void write_report() {
         CodePanel::Lines lines;
         if (ui_.show_code && ui_.report.on()) lines = layout_.code().lines();
@@ -391,6 +424,8 @@ private:
                           .file = document_.file().string(),
                           .error = files_.error().empty() ? picture_.error : files_.error(),
                           .selection = selection_name(),
+                          .selected = selected_names(),
+                          .step = document_.history().position(),
                           .code = ui_.show_code,
                           .code_lines = lines.count,
                           .selected_lines = lines.selected,
@@ -407,6 +442,7 @@ private:
     Ui ui_;
     Layout layout_;
     Measuring measuring_;
+    SelectionHistory selections_;
     RenderedPicture picture_;
     std::uint64_t pictures_ = 0;
 

@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
+#include <utility>
+#include <vector>
 
 namespace farfield {
 namespace {
@@ -30,14 +33,25 @@ constexpr Command commands[] = {
     {CommandId::quit, "File", "quit", "Quit", 'Q', ctrl, "Ctrl+Q", true},
     {CommandId::undo, "Edit", "undo", "Undo", 'Z', ctrl, "Ctrl+Z"},
     {CommandId::redo, "Edit", "redo", "Redo", 'Y', ctrl, "Ctrl+Y, Ctrl+Shift+Z"},
+    {CommandId::cut, "Edit", "cut", "Cut", 'X', ctrl, "Ctrl+X", true},
+    {CommandId::copy, "Edit", "copy", "Copy", 'C', ctrl, "Ctrl+C"},
+    {CommandId::paste, "Edit", "paste", "Paste", 'V', ctrl, "Ctrl+V"},
     {CommandId::add, "Edit", "add", "Add...", 'A', plain, "A, Shift+A", true},
     {CommandId::duplicate, "Edit", "duplicate", "Duplicate", 'D', ctrl, "Ctrl+D"},
     {CommandId::rename, "Edit", "rename", "Rename", GLFW_KEY_F2, plain, "F2"},
     {CommandId::remove, "Edit", "delete", "Delete", GLFW_KEY_DELETE, plain, "Del"},
-    {CommandId::move_up, "Edit", "move_up", "Move up", GLFW_KEY_UP, alt, "Alt+Up", true},
-    {CommandId::move_down, "Edit", "move_down", "Move down", GLFW_KEY_DOWN, alt, "Alt+Down"},
-    {CommandId::make_definition, "Edit", "make_definition", "Make definition", 'I', ctrl, "Ctrl+I", true},
-    {CommandId::make_independent, "Edit", "make_independent", "Make independent", 'I', ctrl | shift, "Ctrl+Shift+I"},
+    {CommandId::select_all, "Edit", "select_all", "Select all", 'A', ctrl, "Ctrl+A", true},
+    {CommandId::search, "Edit", "search", "Search the tree", 'F', ctrl, "Ctrl+F"},
+    {CommandId::group, "Node", "group", "Group", 'G', ctrl, "Ctrl+G"},
+    {CommandId::dissolve, "Node", "dissolve", "Dissolve", 'G', ctrl | shift, "Ctrl+Shift+G"},
+    {CommandId::move_up, "Node", "move_up", "Move up", GLFW_KEY_UP, alt, "Alt+Up", true},
+    {CommandId::move_down, "Node", "move_down", "Move down", GLFW_KEY_DOWN, alt, "Alt+Down"},
+    {CommandId::hide, "Node", "hide", "Hide or show", 'H', plain, "H", true},
+    {CommandId::show_only, "Node", "show_only", "Show only this, or all again", 'H', shift, "Shift+H"},
+    {CommandId::show_everything, "Node", "show_everything", "Show everything", 'H', alt, "Alt+H"},
+    {CommandId::lock, "Node", "lock", "Lock or unlock", 'L', plain, "L"},
+    {CommandId::make_definition, "Node", "make_definition", "Make definition", 'I', ctrl, "Ctrl+I", true},
+    {CommandId::make_independent, "Node", "make_independent", "Make independent", 'I', ctrl | shift, "Ctrl+Shift+I"},
     {CommandId::select, "Tools", "select", "No handles", 'Q', plain, "Q"},
     {CommandId::move, "Tools", "move", "Move", 'W', plain, "W"},
     {CommandId::rotate, "Tools", "rotate", "Rotate", 'E', plain, "E"},
@@ -54,22 +68,24 @@ constexpr Command commands[] = {
     {CommandId::left, "View", "left", "From the left", GLFW_KEY_KP_3, ctrl, "Ctrl+Numpad 3"},
     {CommandId::top, "View", "top", "From above", GLFW_KEY_KP_7, plain, "Numpad 7"},
     {CommandId::bottom, "View", "bottom", "From below", GLFW_KEY_KP_7, ctrl, "Ctrl+Numpad 7"},
-    {CommandId::statistics, "View", "statistics", "Statistics", GLFW_KEY_F3, plain, "F3", true},
+    {CommandId::history, "View", "history", "History", 'H', ctrl, "Ctrl+H", true},
+    {CommandId::statistics, "View", "statistics", "Statistics", GLFW_KEY_F3, plain, "F3"},
     {CommandId::code, "View", "code", "Code", GLFW_KEY_F4, plain, "F4"},
     {CommandId::measure, "View", "measure", "Speed and accuracy", GLFW_KEY_F6, plain, "F6"},
     {CommandId::shortcuts, "Help", "shortcuts", "Keys and mouse", GLFW_KEY_F1, plain, "F1"},
 };
 
-constexpr const char* menus[] = {"File", "Edit", "View", "Tools", "Help"};
+constexpr const char* menus[] = {"File", "Edit", "Node", "View", "Tools", "Help"};
 
 constexpr std::pair<const char*, const char*> mouse[] = {
-    {"Click in the picture", "Select the shape, then the groups around it"},
+    {"Click in the picture", "Select the shape, then the groups around it; Ctrl adds or takes out"},
+    {"Ctrl-click, Shift-click in the tree", "Add to the selection or take out, select a range"},
     {"Left drag on the picture", "Orbit around what is under the mouse"},
     {"Middle drag, Shift + left drag", "Pan"},
     {"Wheel", "Zoom to what is under the mouse"},
     {"Right drag with W A S D, Q E", "Fly; the wheel sets the speed"},
     {"Drag a handle", "Move, turn or scale; Ctrl in steps, Escape takes it back"},
-    {"Drag a number", "Change it; Shift finer, Ctrl coarser"},
+    {"Drag a number", "Change it; Shift finer, Ctrl coarser, Escape leaves it as it was"},
     {"Double-click or Ctrl-click a number", "Type it"},
     {"Right-click a value", "Back to its default"},
     {"Drag a node in the tree", "Re-order, or move into another"},
@@ -80,7 +96,8 @@ constexpr std::pair<const char*, const char*> mouse[] = {
 
 bool is_on(const Ui& ui, CommandId id) {
     return (id == CommandId::statistics && ui.show_statistics) || (id == CommandId::code && ui.show_code) ||
-           (id == CommandId::measure && ui.show_measure) || (id == CommandId::select && ui.tools.tool == Tool::none) ||
+           (id == CommandId::history && ui.show_history) || (id == CommandId::measure && ui.show_measure) ||
+           (id == CommandId::select && ui.tools.tool == Tool::none) ||
            (id == CommandId::move && ui.tools.tool == Tool::move) ||
            (id == CommandId::rotate && ui.tools.tool == Tool::rotate) ||
            (id == CommandId::scale && ui.tools.tool == Tool::scale) ||
@@ -109,16 +126,6 @@ bool code_switch(Ui& ui) {
     ui.report.item("menu", "code");
     tooltip(ui, "The GLSL that the scene comes to, with the lines of what is selected", "F4");
     return pressed;
-}
-
-void table_line(const Ui& ui, const char* left, const char* right) {
-    ImGui::TableNextRow();
-    ImGui::TableNextColumn();
-    ImGui::PushStyleColor(ImGuiCol_Text, ui.theme.accent);
-    ImGui::TextUnformatted(left);
-    ImGui::PopStyleColor();
-    ImGui::TableNextColumn();
-    ImGui::TextUnformatted(right);
 }
 
 }  // namespace
@@ -209,14 +216,30 @@ std::optional<CommandId> command_menus(Ui& ui, const std::function<bool(CommandI
 
 void shortcut_list(Ui& ui) {
     if (!ui.show_shortcuts) return;
+    std::vector<std::pair<const char*, const char*>> lines(std::begin(mouse), std::end(mouse));
+    for (const Command& command : commands) lines.emplace_back(command.key_text, command.label);
+    lines.emplace_back("1 ... 9", "Views, from Result to Step count");
+    // As many columns as the window's height asks for.
+    const float line = ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().CellPadding.y;
+    const float room = std::max(0.8f * ImGui::GetMainViewport()->WorkSize.y, line);
+    const int columns = 1 + static_cast<int>(static_cast<float>(lines.size()) * line / room);
+    const std::size_t rows = (lines.size() + static_cast<std::size_t>(columns) - 1) / static_cast<std::size_t>(columns);
     ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
     if (ImGui::Begin(
             "Keys and mouse", &ui.show_shortcuts,
             ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse)) {
-        if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_PadOuterX)) {
-            for (const auto& [action, effect] : mouse) table_line(ui, action, effect);
-            for (const Command& command : commands) table_line(ui, command.key_text, command.label);
-            table_line(ui, "1 ... 9", "Views, from Result to Step count");
+        if (ImGui::BeginTable("keys", 2 * columns, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_PadOuterX)) {
+            for (std::size_t i = 0; i < rows * static_cast<std::size_t>(columns); ++i) {
+                ImGui::TableNextColumn();
+                const std::size_t index =
+                    i % static_cast<std::size_t>(columns) * rows + i / static_cast<std::size_t>(columns);
+                const auto [key, effect] = index < lines.size() ? lines[index] : std::pair("", "");
+                ImGui::PushStyleColor(ImGuiCol_Text, ui.theme.accent);
+                ImGui::TextUnformatted(key);
+                ImGui::PopStyleColor();
+                ImGui::TableNextColumn();
+                ImGui::TextUnformatted(effect);
+            }
             ImGui::EndTable();
         }
     }

@@ -38,7 +38,7 @@ std::optional<Gizmo::Target> Gizmo::find_target(const Ui& ui, const Scene& scene
     }
     if (object.type != ObjectType::node || object.id == scene.root.id) return std::nullopt;
     const Node* node = find_node(scene, object.id);
-    const auto parent = node ? parent_frame(scene, object.id) : std::nullopt;
+    const auto parent = node && !find_lock(scene, object.id) ? parent_frame(scene, object.id) : std::nullopt;
     if (!parent) return std::nullopt;
     const Frame own = parent->placed(node->transform);
     return Target{object, ui.tools.tool, {own.origin, ui.tools.axes == Axes::local ? own.rotation : glm::mat3(1.0f)}};
@@ -47,10 +47,9 @@ std::optional<Gizmo::Target> Gizmo::find_target(const Ui& ui, const Scene& scene
 /// Each moves, turns and grows as much as the others, about its own origin.
 std::vector<Gizmo::HeldNode> Gizmo::find_nodes(const Ui& ui, const Scene& scene) {
     std::vector<HeldNode> nodes;
-    if (ui.selection.type != ObjectType::node) return nodes;
-    for (const Id id : {ui.selection.id}) {
+    for (const Id id : topmost(scene, selected_nodes(ui.selected()))) {
         const Node* node = find_node(scene, id);
-        const auto parent = node ? parent_frame(scene, id) : std::nullopt;
+        const auto parent = node && !find_lock(scene, id) ? parent_frame(scene, id) : std::nullopt;
         if (parent) nodes.push_back({id, *parent, node->transform, node->transform.rotate});
     }
     return nodes;

@@ -1,5 +1,6 @@
 #include "app/layout.h"
 
+#include "ui/history_panel.h"
 #include "ui/inspector_panel.h"
 #include "ui/objects_panel.h"
 #include "ui/settings_panel.h"
@@ -93,8 +94,8 @@ void split(Ui& ui, const char* id, ImVec2 low, ImVec2 extent, float now, float s
     if (const float moved = splitter(ui, id, low, extent); moved != 0.0f) chosen = now + sign * moved;
 }
 
-void append(Edits& to, Edits from) {
-    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+void append(std::vector<Edits>& to, Edits from) {
+    if (!from.empty()) to.push_back(std::move(from));
 }
 
 }  // namespace
@@ -184,6 +185,7 @@ LayoutResult Layout::draw(Ui& ui, ImVec2 size, const Document& document, const V
     status_line(ui, {0.0f, size.y - status}, {size.x, status}, document, picture);
     ImGui::End();
     append(result.edits, measure_panel(ui, document.scene(), measured, result.measure));
+    result.step = history_panel(ui, document.history());
     return result;
 }
 

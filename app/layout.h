@@ -13,11 +13,12 @@
 namespace farfield {
 
 struct LayoutResult {
-    Edits edits;
+    std::vector<Edits> edits;  ///< of each panel; its edits are carried out together or not at all
     ViewportResult viewport;
     std::optional<CommandId> command;
     bool dismissed = false;  ///< the message
     MeasureWish measure = MeasureWish::none;
+    std::optional<std::size_t> step;  ///< of the history, to go to
 };
 
 class Layout {

@@ -109,8 +109,7 @@ bool PictureOverlay::news() const {
 
 /// The selected nodes but the scene as a whole.
 std::vector<Id> PictureOverlay::outlined(const Ui& ui, const Scene& scene) {
-    std::vector<Id> nodes;
-    if (ui.selection.type == ObjectType::node) nodes.push_back(ui.selection.id);
+    std::vector<Id> nodes = selected_nodes(ui.selected());
     std::erase(nodes, scene.root.id);
     return nodes;
 }

@@ -5,6 +5,7 @@
 #include "app/picture_toolbar.h"
 #include "sdf/pick.h"
 #include "ui/statistics_panel.h"
+#include "ui/tree_edits.h"
 
 #include <fmt/format.h>
 
@@ -51,11 +52,20 @@ glm::vec3 grasped(const Scene& shown, const PictureView& view) {
 Id node_under_mouse(const Ui& ui, const Scene& scene, const PictureView& view) {
     const Ray ray = view.ray(mouse());
     const std::optional<Pick> hit = pick(FieldEvaluator(scene), ray.origin, ray.direction);
-    if (!hit) return scene.root.id;
+    if (!hit || find_lock(scene, hit->node)) return scene.root.id;
+    if (ImGui::GetIO().KeyCtrl) return hit->node;
     if (ui.selection.type == ObjectType::node)
         for (const Node* node = find_node(scene, hit->node); node; node = find_parent(scene, node->id))
             if (node->id == ui.selection.id && node->id != scene.root.id) return find_parent(scene, node->id)->id;
     return hit->node;
+}
+
+/// With Ctrl the node is added or taken out, and a click beside the shapes changes nothing.
+void select_under_mouse(Ui& ui, const Scene& scene, Id node) {
+    if (!ImGui::GetIO().KeyCtrl)
+        ui.select(select(ObjectRef{ObjectType::node, ui.reveal = node}));
+    else if (node != scene.root.id)
+        ui.select(toggled(ui.selected(), ui.reveal = node));
 }
 
 /// The point that the camera turns about or that is held.
@@ -112,9 +122,9 @@ void Viewport::follow(const Scene& scene, const ViewportInput& input, const Pict
 
 void Viewport::click(Ui& ui, const ViewportInput& input, const PictureView& view) const {
     if (hovered_light_ != 0)
-        ui.selection = {ObjectType::light, ui.reveal = hovered_light_};
+        ui.select(select(ObjectRef{ObjectType::light, ui.reveal = hovered_light_}));
     else
-        ui.selection = {ObjectType::node, ui.reveal = node_under_mouse(ui, *input.shown, view)};
+        select_under_mouse(ui, *input.shown, node_under_mouse(ui, *input.shown, view));
 }
 
 ViewportResult Viewport::draw(Ui& ui, const Scene& scene, const ViewportInput& input, const RenderedPicture& picture,
@@ -173,7 +183,10 @@ ViewportResult Viewport::draw(Ui& ui, const Scene& scene, const ViewportInput& i
     if (dragged_ && (hold_ == Hold::orbit || hold_ == Hold::pan)) draw_pivot(ui, view, pivot_);
     draw.PopClipRect();
 
-    if (is_empty(scene, scene.root)) {
+    const bool nothing_shows = is_empty(scene, scene.root);
+    if (nothing_shows && !show_everything(scene).empty()) {
+        centred_text(ui, low, high, 0.0f, "Nothing shows. Alt+H shows all that is hidden", ui.theme.text);
+    } else if (nothing_shows) {
         centred_text(ui, low, high, -0.5f, "There is no shape in the scene yet", ui.theme.text);
         centred_text(ui, low, high, 0.7f, "Press + Add in the Scene panel, or A, to put in a first one", ui.theme.dim);
     } else if (picture.texture == 0 && picture.error.empty()) {

@@ -100,7 +100,9 @@ private:
 
     void find(Id node, std::string message) { audit_.findings.push_back({node, std::move(message)}); }
 
-    void visit(const Node& node, int depth) {
+    /// `hidden`: it is in a hidden node.
+    void visit(const Node& node, int depth, bool hidden = false) {
+        hidden = hidden || node.hidden;
         const auto found = parts_.find(node.id);
         const FieldNode* part = found == parts_.end() ? nullptr : found->second;
         NodeAudit& entry = audit_.nodes.emplace_back(NodeAudit{node.id,
@@ -122,17 +124,18 @@ private:
             by_numbers(*part);
             by_trying(*part, entry);
         } else {
-            entry.origin = "adds no shape";
-            nothing_shows(node);
+            entry.origin = hidden ? "is hidden" : "adds no shape";
+            if (!hidden) nothing_shows(node);
         }
-        for (const Node& child : node.children) visit(child, depth + 1);
+        for (const Node& child : node.children) visit(child, depth + 1, hidden);
     }
 
     /// Told of the nodes that are the reason, not of all that they are in.
     void nothing_shows(const Node& node) {
         if (node.children.empty())
             find(node.id, "nothing is in it, so that it never shows");
-        else if (node.kind == NodeKind::subtract && is_empty(scene_, node.children[0]) && !is_empty_group(node))
+        else if (const Node* first = first_shown(node);
+                 first && node.kind == NodeKind::subtract && is_empty(scene_, *first) && !is_empty_group(node))
             find(node.id, "its first child holds no shape to subtract from, so that nothing of it shows");
     }
 

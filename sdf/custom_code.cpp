@@ -122,7 +122,8 @@ std::map<std::string, std::vector<float>> global_values(TIntermNode* root) {
 
 /// Keys of a node in a scene file that no parameter can have.
 bool is_reserved(std::string_view key) {
-    for (const std::string_view taken : {format::kind, format::name, format::material, format::children, format::code})
+    for (const std::string_view taken :
+         {format::kind, format::name, format::material, format::hidden, format::locked, format::children, format::code})
         if (key == taken) return true;
     for (const Parameter& parameter : info(NodeKind::custom).parameters)
         if (key == parameter.key) return true;

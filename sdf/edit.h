@@ -4,6 +4,8 @@
 
 #include "sdf/fields.h"
 
+#include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <variant>
@@ -34,12 +36,30 @@ struct SetMaterial {
     Id node;
     Id material;
 };  ///< material 0: inherit
+/// A hidden node counts as not there: what is left of a subtraction begins with the first child that shows.
+struct SetHidden {
+    Id node;
+    bool hidden;
+};
+/// A locked node and what is in it are not moved, turned, scaled or deleted: such edits are refused.
+struct SetLocked {
+    Id node;
+    bool locked;
+};
 /// Inserts a subtree before child `index` (-1: at the end). Fresh ids are given to all of it, names that are taken get
 /// a number.
 struct InsertNode {
     Id parent;
     int index;
     Node node;
+};
+/// Inserts the nodes that the root of another scene holds, in their order, with the materials and definitions that they
+/// use. What is there already under the same name with the same content serves; otherwise it is added, under another
+/// name where that is taken. Returns the first of the nodes.
+struct InsertExcerpt {
+    Id parent;
+    int index;
+    std::shared_ptr<const Scene> excerpt;
 };
 struct RemoveNode {
     Id node;
@@ -49,6 +69,21 @@ struct MoveNode {
     Id parent;
     int index;
 };  ///< index counts in the parent before the node is taken out
+/// Puts nodes that share a root into a new node of `kind`, in their order, where the first of them was. They stay where
+/// they are and keep their materials, whatever groups they came from. Returns the new node.
+struct WrapNodes {
+    std::vector<Id> nodes;
+    NodeKind kind;
+    std::string name;  ///< a number is added where it is taken
+};
+/// Puts what is in a node in its place: placed and coloured as it was, without what the node did to it.
+struct DissolveNode {
+    Id node;
+};
+/// Shows these nodes and hides all others of the same tree but what they are in and what is in them.
+struct ShowOnly {
+    std::vector<Id> nodes;
+};
 /// Chooses what an instance shows.
 struct SetDefinition {
     Id instance;
@@ -83,9 +118,10 @@ struct SetCode {
     std::string text;
 };
 
-using Edit =
-    std::variant<SetValue, SetName, SetKind, SetLightKind, SetMaterial, InsertNode, RemoveNode, MoveNode, SetDefinition,
-                 MakeDefinition, MakeIndependent, AddMaterial, RemoveMaterial, AddLight, RemoveLight, SetCode>;
+using Edit = std::variant<SetValue, SetName, SetKind, SetLightKind, SetMaterial, SetHidden, SetLocked, InsertNode,
+                          InsertExcerpt, RemoveNode, MoveNode, WrapNodes, DissolveNode, ShowOnly, SetDefinition,
+                          MakeDefinition, MakeIndependent, AddMaterial, RemoveMaterial, AddLight, RemoveLight, SetCode>;
+using Edits = std::vector<Edit>;
 
 struct EditError : std::runtime_error {
     using std::runtime_error::runtime_error;
@@ -93,41 +129,14 @@ struct EditError : std::runtime_error {
 
 /// Carries out one edit. Throws EditError and leaves the scene as it was when the edit makes no sense: unknown id,
 /// value out of range, name taken, children for a primitive, a node moved into itself, a definition that would contain
-/// itself, removal of the root. Returns the id of what was inserted or added, otherwise 0.
+/// itself, removal of the root or of what is locked. Returns the id of what was inserted or added, otherwise 0.
 Id apply(Scene& scene, const Edit& edit);
+/// One after the other; all of them or, where one throws, none. Returns what each one returned.
+std::vector<Id> apply_all(Scene& scene, std::span<const Edit> edits);
 
-/// What the undo list calls it, as "radius of ring" or "delete sphere".
+/// What the list of steps calls it, as "radius of ring" or "delete sphere"; of several edits "delete sphere and 2
+/// more".
 std::string describe(const Scene& before, const Edit& edit);
-
-/// Undo and redo by whole scenes: a scene is a value of some kilobytes, so keeping it beats inverting edits.
-class History {
-public:
-    explicit History(Scene scene = {});
-    const Scene& scene() const;
-    /// Edits that carry the same non-zero `gesture` (one drag of a slider) make one step.
-    Id apply(const Edit& edit, unsigned gesture = 0);
-    /// Takes back what this gesture has done so far, without a trace.
-    void cancel(unsigned gesture);
-    void replace(Scene scene);  ///< a new document: forgets all steps
-    bool can_undo() const;
-    bool can_redo() const;
-    void undo();
-    void redo();
-    /// Descriptions of the steps that undo would revert, oldest first.
-    std::vector<std::string> steps() const;
-    /// Changes with every edit, undo, redo and replace; equal revisions mean equal scenes.
-    std::uint64_t revision() const;
-
-private:
-    struct Step {
-        Scene scene;
-        std::string description;
-        unsigned gesture;
-        std::uint64_t revision;
-    };
-    std::vector<Step> steps_;  ///< the state after each step; the first is the start
-    std::size_t current_ = 0;
-    std::uint64_t next_revision_ = 1;
-};
+std::string describe(const Scene& before, std::span<const Edit> edits);
 
 }  // namespace farfield

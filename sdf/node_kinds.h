@@ -144,9 +144,9 @@ struct KindInfo {
     /// the node's region; where the content's distance is no exact one or it is cut off (FieldNode::guarded).
     const char* guard_copy;
     const char* guard_nearest;
-    /// domain and repeat: float f(vec3 p, vec3 v, parameters..., derived...), how far a ray from p along v is one straight
-    /// ray for the content too, with no parameter but those that `straight` allows; null: not at all. And
-    /// vec3 f(vec3 p, vec3 v, parameters...), its direction there; null: the same.
+    /// domain and repeat: float f(vec3 p, vec3 v, parameters..., derived...), how far a ray from p along v is one
+    /// straight ray for the content too, with no parameter but those that `straight` allows; null: not at all. And vec3
+    /// f(vec3 p, vec3 v, parameters...), its direction there; null: the same.
     const char* way;
     const char* direction;
     bool (*straight)(Values v);

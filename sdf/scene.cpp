@@ -37,6 +37,11 @@ const Node* find_parent_below(const Node& node, Id id) {
     return nullptr;
 }
 
+void add_topmost(const Node& node, const std::set<Id>& wanted, std::vector<Id>& found) {
+    if (wanted.contains(node.id)) return found.push_back(node.id);
+    for (const Node& child : node.children) add_topmost(child, wanted, found);
+}
+
 template <class Visit>
 void visit_nodes(const Node& node, Visit visit) {
     visit(node);
@@ -65,6 +70,7 @@ std::uint64_t expanded_count(const Node& node, const Counts& of_definitions) {
     const auto sum = [](std::uint64_t a, std::uint64_t b) {
         return a > std::numeric_limits<std::uint64_t>::max() - b ? std::numeric_limits<std::uint64_t>::max() : a + b;
     };
+    if (node.hidden) return 0;
     std::uint64_t count = 1;
     if (const auto found = of_definitions.find(node.definition); found != of_definitions.end())
         count = sum(count, found->second);
@@ -113,7 +119,9 @@ private:
 
 }  // namespace
 
-glm::mat3 rotation_matrix(const Transform& transform) {
+glm::mat3 rotation_matrix(const Transform& transform) { return glm::mat3(exact_rotation_matrix(transform)); }
+
+glm::dmat3 exact_rotation_matrix(const Transform& transform) {
     const glm::dvec3 a = glm::radians(glm::dvec3(transform.rotate));
     const glm::dvec3 c = glm::cos(a), s = glm::sin(a);
     const glm::dmat3 x(1.0, 0.0, 0.0, 0.0, c.x, s.x, 0.0, -s.x, c.x);
@@ -123,7 +131,7 @@ glm::mat3 rotation_matrix(const Transform& transform) {
     for (int column = 0; column < 3; ++column)
         for (int row = 0; row < 3; ++row)
             if (std::abs(m[column][row]) < 1e-12) m[column][row] = 0.0;  // quarter turns are exact
-    return glm::mat3(m);
+    return m;
 }
 
 Scene::Scene() {
@@ -176,6 +184,20 @@ const Node* find_parent(const Scene& scene, Id id) {
         if (const Node* found = find_parent_below(definition, id)) return found;
     return nullptr;
 }
+const Node* find_top(const Scene& scene, Id id) {
+    if (id == 0) return nullptr;
+    if (find_below(scene.root, id)) return &scene.root;
+    for (const Node& definition : scene.definitions)
+        if (find_below(definition, id)) return &definition;
+    return nullptr;
+}
+std::vector<Id> topmost(const Scene& scene, const std::vector<Id>& nodes) {
+    const std::set<Id> wanted(nodes.begin(), nodes.end());
+    std::vector<Id> found;
+    add_topmost(scene.root, wanted, found);
+    for (const Node& definition : scene.definitions) add_topmost(definition, wanted, found);
+    return found;
+}
 const Material* find_material(const Scene& scene, Id id) { return find_by_id(scene.materials, id); }
 const Light* find_light(const Scene& scene, Id id) { return find_by_id(scene.lights, id); }
 const Node* find_definition(const Scene& scene, Id id) { return find_by_id(scene.definitions, id); }
@@ -192,6 +214,18 @@ std::uint32_t material_index(const Scene& scene, Id id, std::uint32_t inherited)
     return material ? static_cast<std::uint32_t>(material - scene.materials.data()) : inherited;
 }
 
+const Node* find_lock(const Scene& scene, Id id) {
+    for (const Node* node = find_node(scene, id); node; node = find_parent(scene, node->id))
+        if (node->locked) return node;
+    return nullptr;
+}
+
+const Node* first_shown(const Node& node) {
+    const auto it =
+        std::find_if(node.children.begin(), node.children.end(), [](const Node& child) { return !child.hidden; });
+    return it == node.children.end() ? nullptr : &*it;
+}
+
 bool is_empty(const Scene& scene, const Node& node) { return is_empty(node, filled_definitions(scene)); }
 
 std::set<Id> filled_definitions(const Scene& scene) {
@@ -203,12 +237,14 @@ std::set<Id> filled_definitions(const Scene& scene) {
 }
 
 bool is_empty(const Node& node, const std::set<Id>& filled_definitions) {
+    if (node.hidden) return true;
     if (node.kind == NodeKind::custom) return !node.code;
     if (node.kind == NodeKind::instance) return !filled_definitions.contains(node.definition);
     if (!info(node.kind).takes_children()) return false;
     const auto is_empty_too = [&](const Node& child) { return is_empty(child, filled_definitions); };
-    if (node.children.empty()) return true;
-    if (node.kind == NodeKind::subtract) return is_empty_too(node.children[0]);
+    const Node* first = first_shown(node);
+    if (!first) return true;
+    if (node.kind == NodeKind::subtract) return is_empty_too(*first);
     return std::all_of(node.children.begin(), node.children.end(), is_empty_too);
 }
 

@@ -26,10 +26,12 @@ struct Transform {
     glm::vec3 translate{0.0f};  ///< metres
     glm::vec3 rotate{0.0f};     ///< degrees about x, then y, then z (fixed axes)
     float scale = 1.0f;         ///< uniform, > 0
+    friend bool operator==(const Transform&, const Transform&) = default;
 };
 
 /// The rotation part: parent = rotation * (scale * own) + translate.
 glm::mat3 rotation_matrix(const Transform& transform);
+glm::dmat3 exact_rotation_matrix(const Transform& transform);
 
 struct Node {
     Id id = 0;
@@ -41,6 +43,8 @@ struct Node {
     Id definition = 0;  ///< instances: what they show, one of Scene::definitions
     std::vector<Node> children;
     std::shared_ptr<const CustomCode> code;  ///< of a custom node; without it, it shows nothing
+    bool hidden = false;                     ///< counts as not there, with all below it
+    bool locked = false;                     ///< neither picked, moved nor deleted, with all below it
 };
 
 /// Lambert reflection plus a normalised Phong highlight on direct light.
@@ -51,6 +55,7 @@ struct Material {
     float specular = 0.0f;     ///< fraction of the light in the highlight, 0..1
     float exponent = 32.0f;    ///< Phong exponent, >= 1
     glm::vec3 emission{0.0f};  ///< emitted radiance, W/(m² sr)
+    friend bool operator==(const Material&, const Material&) = default;
 };
 
 enum class LightKind { point, directional };
@@ -63,18 +68,21 @@ struct Light {
     glm::vec3 position{0.0f, 3.0f, 0.0f};    ///< point: metres
     glm::vec3 direction{0.0f, -1.0f, 0.0f};  ///< directional: the way the light travels; any length but 0
     glm::vec3 intensity{10.0f};  ///< point: radiant intensity, W/sr; directional: irradiance across the beam, W/m²
+    friend bool operator==(const Light&, const Light&) = default;
 };
 
 /// Radiance from directions that meet no surface: horizon at and below y = 0, zenith straight up, linear in y between.
 struct Sky {
     glm::vec3 horizon{0.0f};
     glm::vec3 zenith{0.0f};
+    friend bool operator==(const Sky&, const Sky&) = default;
 };
 
 struct Camera {
     glm::vec3 position{3.0f, 2.5f, 5.0f};
     glm::vec3 target{0.0f, 0.5f, 0.0f};
     float field_of_view = 40.0f;  ///< vertical, degrees
+    friend bool operator==(const Camera&, const Camera&) = default;
 };
 
 enum class Method { paper, farfield, reference };
@@ -87,6 +95,7 @@ struct Settings {
     int blur_levels = 3;     ///< far light is averaged over about 2^levels pixels; 0 leaves it unfiltered
     float ao_radius = 0.5f;  ///< metres
     float exposure = 0.0f;   ///< stops: the picture is multiplied by 2^exposure
+    friend bool operator==(const Settings&, const Settings&) = default;
 };
 
 struct Scene {
@@ -119,6 +128,10 @@ const Node* find_node(const Scene& scene, Id id);
 Node* find_node(Scene& scene, Id id);
 /// The parent of node `id`; null for the root, for definitions and for unknown ids.
 const Node* find_parent(const Scene& scene, Id id);
+/// The root or the definition that it is or is in; null for unknown ids.
+const Node* find_top(const Scene& scene, Id id);
+/// Those of the nodes that exist and are in none of the others, each once, in the order of the tree.
+std::vector<Id> topmost(const Scene& scene, const std::vector<Id>& nodes);
 const Material* find_material(const Scene& scene, Id id);
 const Light* find_light(const Scene& scene, Id id);
 /// Null for ids of anything but a definition.
@@ -132,17 +145,23 @@ std::string display_name(const Scene& scene, const Node& node);
 /// Index in scene.materials of material `id`; `inherited` for 0 and unknown ids.
 std::uint32_t material_index(const Scene& scene, Id id, std::uint32_t inherited);
 
-/// Whether the node adds no shape: a group without shapes below it, a subtraction from such, an instance of such,
-/// custom without code.
+/// The locked node that it is or that it is in; null where there is none.
+const Node* find_lock(const Scene& scene, Id id);
+
+/// The first child that is not hidden: what subtractions take from. Null where there is none.
+const Node* first_shown(const Node& node);
+
+/// Whether the node adds no shape: a hidden one, a group without shapes below it, a subtraction from such, an instance
+/// of such, custom without code.
 bool is_empty(const Scene& scene, const Node& node);
 bool is_empty(const Node& node, const std::set<Id>& filled_definitions);
 std::set<Id> filled_definitions(const Scene& scene);  ///< those that are not empty
 
 int count_nodes(const Node& node);    ///< itself and everything below
 int count_nodes(const Scene& scene);  ///< the root, the definitions and everything below
-/// How many nodes the tree would have with the content of its definition below each instance: what a compiler that
-/// inlines every call has to deal with. Definitions that use each other double that easily; the largest value stands
-/// for everything beyond.
+/// How many nodes the tree would have with the content of its definition below each instance and without what is
+/// hidden: what a compiler that inlines every call has to deal with. Definitions that use each other double that
+/// easily; the largest value stands for everything beyond.
 std::uint64_t expanded_node_count(const Scene& scene);
 /// How many instances of the definition there are, in the tree and in other definitions.
 int count_uses(const Scene& scene, Id definition);

@@ -23,6 +23,8 @@ inline constexpr const char* kind = "kind";
 inline constexpr const char* name = "name";
 inline constexpr const char* of = "of";  ///< of an instance: the name of its definition
 inline constexpr const char* material = "material";
+inline constexpr const char* hidden = "hidden";
+inline constexpr const char* locked = "locked";
 inline constexpr const char* children = "children";
 inline constexpr const char* code = "code";  ///< of a custom node
 

@@ -282,7 +282,7 @@ private:
                  fmt::format("found {}, expected none: {} {} has no children", description(*children),
                              std::string_view("aeiou").find(kind.key[0]) == std::string_view::npos ? "a" : "an",
                              kind.key));
-        Keys keys{format::kind, format::name, format::material};
+        Keys keys{format::kind, format::name, format::material, format::hidden, format::locked};
         if (kind.role == Role::instance) keys.push_back(format::of);
         Node node = make_node(kind.kind);
         if (kind.kind == NodeKind::custom) {
@@ -298,6 +298,8 @@ private:
         node.id = scene_.new_id();
         node.name = read_node_name(json, path);
         node.material = read_material_reference(json, path);
+        node.hidden = read_flag(json, path, format::hidden);
+        node.locked = read_flag(json, path, format::locked);
         if (kind.role == Role::instance) node.definition = read_definition_reference(json, path);
         for (size_t i = 0; i < list.size(); ++i)
             if (const Json* value = json.find(list[i].key))
@@ -362,6 +364,12 @@ private:
                  fmt::format("found {} again, expected a name of its own (the first is on line {})", description(*json),
                              first->second));
         return *name;
+    }
+
+    bool read_flag(const Json& node, const JsonPath& node_path, const char* key) const {
+        const Json* json = node.find(key);
+        if (json && !json->as<bool>()) unexpected({&node_path, key}, *json, "true or false");
+        return json && *json->as<bool>();
     }
 
     Id read_material_reference(const Json& node, const JsonPath& node_path) const {

@@ -99,7 +99,11 @@ Schema light(LightKind kind) {
 
 /// The keys that all nodes have are described with the node; a kind only admits them.
 Schema node(const KindInfo& kind) {
-    Schema properties{{format::kind, true}, {format::name, true}, {format::material, true}};
+    Schema properties{{format::kind, true},
+                      {format::name, true},
+                      {format::material, true},
+                      {format::hidden, true},
+                      {format::locked, true}};
     for (const Parameter& parameter : kind.parameters) properties[parameter.key] = value(parameter);
     for (const Field<Transform>& field : fields<Transform>()) properties[field.parameter.key] = true;
     if (kind.takes_children()) properties[format::children] = true;
@@ -131,6 +135,11 @@ Schema any_node() {
     properties[format::material] = {
         {"description", "Name of a material; without it that of the nearest node above that has one"},
         {"type", "string"}};
+    properties[format::hidden] = {
+        {"description", "Counts as not there, with all below it"}, {"type", "boolean"}, {"default", false}};
+    properties[format::locked] = {{"description", "Kept in the editor from being picked, moved and deleted"},
+                                  {"type", "boolean"},
+                                  {"default", false}};
     add_fields<Transform>(properties, [](std::string_view) { return true; });
     properties[format::children] = {{"type", "array"}, {"items", reference("node")}};
     return schema;

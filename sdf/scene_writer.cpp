@@ -139,6 +139,8 @@ private:
             line(format::of, text_of(of->second));
         if (const Material* material = find_material(scene_, node.material))
             line(format::material, text_of(material->name));
+        if (node.hidden) line(format::hidden, "true");
+        if (node.locked) line(format::locked, "true");
         if (node.code) code(node.code->text());
         const std::vector<Parameter> list = parameters(node);
         for (size_t i = 0; i < list.size(); ++i) value(list[i], node.values[i], list[i].initial);

@@ -1,7 +1,7 @@
 // Nodes with code of the user's own: files, edits, bounds, generated code, and what may run.
 #include "sdf/code_trust.h"
 #include "sdf/codegen.h"
-#include "sdf/edit.h"
+#include "sdf/history.h"
 #include "sdf/evaluate.h"
 #include "sdf/scene_file.h"
 #include "tests/custom_code_samples.h"

@@ -1,5 +1,5 @@
 // The properties of edits: all or nothing, names and ids, and what undo brings back.
-#include "sdf/edit.h"
+#include "sdf/history.h"
 #include "sdf/scene_file.h"
 #include "tests/test_support.h"
 

@@ -1,6 +1,6 @@
 // Definitions and their instances: the same shape as copies, by one function; edits, files and limits.
 #include "sdf/codegen.h"
-#include "sdf/edit.h"
+#include "sdf/history.h"
 #include "sdf/evaluate.h"
 #include "sdf/scene_file.h"
 #include "tests/test_support.h"
@@ -523,7 +523,7 @@ TEST(InstanceFiles, MistakesAreLocated) {
                  "has no \"of\", expected the name of a definition");
     expect_error(small, "\"kind\": \"instance\",\n        \"of\"", "\"kind\": \"sphere\",\n        \"of\"", 27,
                  "root/children[0]/of",
-                 "unknown key, expected one of kind, name, material, radius, translate, rotate, scale");
+                 "unknown key, expected one of kind, name, material, hidden, locked, radius, translate, rotate, scale");
     expect_error(small, "\"of\": \"a\"", "\"of\": \"a\", \"children\": []", 27, "root/children[0]/children",
                  "found an array of 0, expected none: an instance has no children");
     expect_error(small, "\"name\": \"b\"", "\"name\": \"a\"", 13, "definitions[0] \"a\"/children[0]/of",

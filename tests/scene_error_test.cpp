@@ -142,9 +142,9 @@ TEST(SceneFileError, Version) {
 }
 
 TEST(SceneFileError, UnknownKey) {
-    expect_error(
-        "\"radius\"", "\"raduis\"", 19, "root/children[0] \"ball\"/raduis",
-        "unknown key, expected one of kind, name, material, radius, translate, rotate, scale (perhaps radius)");
+    expect_error("\"radius\"", "\"raduis\"", 19, "root/children[0] \"ball\"/raduis",
+                 "unknown key, expected one of kind, name, material, hidden, locked, radius, translate, rotate, scale "
+                 "(perhaps radius)");
     expect_error(
         "\"camera\"", "\"kamera\"", 3, "kamera",
         "unknown key, expected one of $schema, farfield, camera, settings, sky, materials, lights, definitions, root "

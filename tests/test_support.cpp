@@ -1,7 +1,7 @@
 #include "tests/test_support.h"
 
 #include "sdf/custom_code.h"
-#include "sdf/edit.h"
+#include "sdf/excerpt.h"
 
 #include <fmt/format.h>
 
@@ -301,6 +301,23 @@ Edit random_edit(const Scene& scene, std::mt19937& random) {
             return MakeIndependent{pick(3) ? any_instance() : any_node()};
         case 14:
             return RemoveLight{any_light()};
+        case 15:
+            return SetHidden{any_node(), pick(3) != 0};
+        case 16:
+            return SetLocked{any_node(), pick(6) == 0};
+        case 17:
+            return WrapNodes{{any_node(), any_node()}, any_kind(), pick(2) ? name : ""};
+        case 18:
+            return DissolveNode{any_node()};
+        case 19:
+            return ShowOnly{{any_node(), any_node()}};
+        case 20: {
+            // Of this scene or of another.
+            const Scene other = pick(2) ? scene : random_scene(static_cast<unsigned>(random()), 6);
+            const std::vector<Id> ids = all_ids(other);
+            Scene part = excerpt(other, {ids[pick(ids.size())], ids[pick(ids.size())]});
+            return InsertExcerpt{any_node(), pick(6) - 1, std::make_shared<const Scene>(std::move(part))};
+        }
         default: {
             std::vector<Id> custom{any_node()};
             for (const Id id : all_ids(scene.root))

@@ -1,7 +1,7 @@
 // Undo as the picture shows it.
 #include "renderer/context.h"
 #include "renderer/renderer.h"
-#include "sdf/edit.h"
+#include "sdf/history.h"
 #include "sdf/scene_file.h"
 #include "tests/test_support.h"
 

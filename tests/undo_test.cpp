@@ -1,6 +1,6 @@
 // What undo brings back, in all that hangs on a scene: its file, the generated code of both tiers, the parameters.
 #include "sdf/codegen.h"
-#include "sdf/edit.h"
+#include "sdf/history.h"
 #include "sdf/scene_file.h"
 #include "tests/test_support.h"
 

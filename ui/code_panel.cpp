@@ -231,7 +231,8 @@ void CodePanel::select_text(Ui& ui, Place at) {
             ui.reveal = node;
         }
     }
-    if (!ImGui::IsWindowFocused() || !io.KeyCtrl || io.WantTextInput) return;
+    ui.in_code = ImGui::IsWindowFocused();
+    if (!ui.in_code || !io.KeyCtrl || io.WantTextInput) return;
     if (ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_A), false) && !marks_.empty()) {
         anchor_ = {};
         head_ = {marks_.size() - 1, line_text(marks_.size() - 1).size()};

@@ -1,6 +1,7 @@
 #include "ui/inspector_panel.h"
 
 #include "ui/kind_menu.h"
+#include "ui/tree_edits.h"
 #include "ui/tree_panel.h"
 #include "ui/value_row.h"
 
@@ -80,7 +81,7 @@ void material_row(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
     if (material) {
         if (ImGui::ColorButton("##open", display_color(material->albedo), ImGuiColorEditFlags_NoTooltip,
                                {side * 1.3f, side}))
-            ui.selection = {ObjectType::material, material->id};
+            ui.select(select(ObjectRef{ObjectType::material, material->id}));
         ui.report.item("inspector", "material_open");
         tooltip(ui, "Edit this material");
         ImGui::SameLine(0.0f, ui.theme.px(4.0f));
@@ -126,7 +127,7 @@ int uses(const Scene& scene, Id material) {
 void delete_button(Ui& ui, const Scene& scene, const char* label, bool enabled, Edits& edits) {
     ImGui::Dummy({0.0f, ui.theme.px(4.0f)});
     ImGui::BeginDisabled(!enabled);
-    if (ImGui::Button(label, {-FLT_MIN, 0.0f})) edits = delete_selection(ui, scene);
+    if (ImGui::Button(label, {-FLT_MIN, 0.0f})) edits = delete_selection(scene, ui.selected());
     ImGui::EndDisabled();
     ui.report.item("inspector", "delete");
 }
@@ -220,14 +221,49 @@ void field_block(Ui& ui, const Node& node) {
     slope_row(ui, *audit);
 }
 
+/// How many nodes the rows below are about; 1 where they are about one alone.
+std::size_t selected_count(const Ui& ui) {
+    return ui.inspected == ui.selection ? selected_nodes(ui.selected()).size() : 1;
+}
+
+void several_note(Ui& ui, const Scene& scene, const Node& node, std::size_t count) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ui.theme.accent);
+    ImGui::Text("%zu nodes selected", count);
+    ImGui::PopStyleColor();
+    ui.report.item("inspector", "several");
+    ImGui::PushFont(ui.theme.small_font);
+    wrapped(ui.theme.dim, fmt::format("The values are those of {}. What you change here changes in all: they get the "
+                                      "same material, and the same values where they are of its kind; they move, turn "
+                                      "and scale by as much.",
+                                      display_name(scene, node)));
+    ImGui::PopFont();
+    ImGui::Dummy({0.0f, ui.theme.px(2.0f)});
+}
+
+/// Why the placement cannot be changed, and how it could be.
+void locked_note(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
+    const Node* lock = find_lock(scene, node.id);
+    if (!lock) return;
+    const bool own = lock->id == node.id;
+    wrapped(ui.theme.dim,
+            own ? "Locked: it stays where it is." : fmt::format("In {}, which is locked.", display_name(*lock)));
+    if (ImGui::Button(own ? "Unlock" : fmt::format("Unlock {}", display_name(*lock)).c_str(), {-FLT_MIN, 0.0f}))
+        edits.push_back(SetLocked{lock->id, false});
+    ui.report.item("inspector", "unlock");
+}
+
 void inspect_node(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
-    name_row(ui, ui.inspected, node.name, display_name(scene, node).c_str(), edits);
+    const std::size_t count = selected_count(ui);
+    if (count > 1)
+        several_note(ui, scene, node, count);
+    else
+        name_row(ui, ui.inspected, node.name, display_name(scene, node).c_str(), edits);
     kind_row(ui, scene, node, edits);
     if (node.kind == NodeKind::instance) definition_row(ui, scene, node, edits);
     if (find_definition(scene, node.id)) {
-        const int count = count_uses(scene, node.id);
+        const int uses = count_uses(scene, node.id);
         row_label(ui, "Shown by", false);
-        ImGui::TextDisabled("%d %s", count, count == 1 ? "instance" : "instances");
+        ImGui::TextDisabled("%d %s", uses, uses == 1 ? "instance" : "instances");
     }
     material_row(ui, scene, node, edits);
     if (node.code) code_rows(ui, node);
@@ -235,7 +271,10 @@ void inspect_node(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
     if (own > 0) section(ui, "Shape");
     value_rows(ui, "inspector", scene, ui.inspected, edits, 0, own);
     section(ui, "Placement");
+    locked_note(ui, scene, node, edits);
+    ImGui::BeginDisabled(find_lock(scene, node.id) != nullptr);
     value_rows(ui, "inspector", scene, ui.inspected, edits, own);
+    ImGui::EndDisabled();
     if (info(node.kind).takes_children() && node.children.empty()) {
         ImGui::Dummy({0.0f, ui.theme.px(4.0f)});
         ImGui::PushTextWrapPos(0.0f);
@@ -246,7 +285,8 @@ void inspect_node(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
     if (find_definition(scene, node.id))
         delete_button(ui, scene, "Delete definition", count_uses(scene, node.id) == 0, edits);
     else if (node.id != scene.root.id)
-        delete_button(ui, scene, "Delete node", true, edits);
+        delete_button(ui, scene, count > 1 ? fmt::format("Delete {} nodes", count).c_str() : "Delete node",
+                      !find_lock(scene, node.id), edits);
 }
 
 void inspect_material(Ui& ui, const Scene& scene, const Material& material, Edits& edits) {
@@ -313,6 +353,7 @@ Edits inspector_panel(Ui& ui, const Scene& scene) {
     ImGui::EndChild();
     ImGui::PopStyleVar();
     if (ui.inspected == ui.selection) ui.focus_name = false;  // what has no name has no field for it
+    if (selected_count(ui) > 1) edits = for_all_selected(scene, ui.selected(), std::move(edits));
     ui.inspected = ui.selection;
     return edits;
 }

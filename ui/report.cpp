@@ -36,6 +36,8 @@ void Report::write(const ReportState& state, double now) {
     json["file"] = state.file;
     json["error"] = state.error;
     json["selection"] = state.selection;
+    json["selected"] = state.selected;
+    json["step"] = state.step;
     if (state.code)
         json["code"] = {
             {"lines", state.code_lines}, {"selected", state.selected_lines}, {"inside", state.inside_lines}};

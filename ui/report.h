@@ -23,7 +23,9 @@ struct ReportState {
     std::string file;   ///< of the document, empty before the first save
     std::string error;  ///< what the error bar shows
     std::string selection;
-    bool code = false;  ///< the code panel is open
+    std::vector<std::string> selected;  ///< all nodes, the primary one last
+    std::size_t step = 0;               ///< of the history
+    bool code = false;                  ///< the code panel is open
     std::size_t code_lines = 0;
     std::vector<std::size_t> selected_lines, inside_lines;  ///< of the code, from 1: the selected node's, and in it
 };

@@ -106,6 +106,29 @@ void draw_icon(const Ui& ui, Role role, ImVec2 centre) {
     }
 }
 
+void draw_eye(const Ui& ui, bool open, ImVec2 centre, ImU32 color) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float w = ui.theme.px(6.0f), h = ui.theme.px(4.5f), line = ui.theme.px(1.3f);
+    // Two arcs from corner to corner.
+    for (const float side : {-1.0f, 1.0f})
+        draw.AddBezierQuadratic({centre.x - w, centre.y}, {centre.x, centre.y + 2.0f * side * h},
+                                {centre.x + w, centre.y}, color, line);
+    draw.AddCircleFilled(centre, ui.theme.px(2.0f), color);
+    if (!open) draw.AddLine({centre.x - w, centre.y + h}, {centre.x + w, centre.y - h}, color, line);
+}
+
+void draw_lock(const Ui& ui, bool closed, ImVec2 centre, ImU32 color) {
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    const float w = ui.theme.px(4.0f), bow = ui.theme.px(2.6f), line = ui.theme.px(1.3f);
+    draw.AddRectFilled({centre.x - w, centre.y - ui.theme.px(0.5f)}, {centre.x + w, centre.y + ui.theme.px(5.0f)},
+                       color, ui.theme.px(1.0f));
+    const float x = centre.x + (closed ? 0.0f : bow * 1.2f), y = centre.y - ui.theme.px(2.0f);
+    draw.PathLineTo({x - bow, centre.y});
+    draw.PathArcTo({x, y}, bow, 3.14159f, 6.28318f);
+    if (closed) draw.PathLineTo({x + bow, centre.y});
+    draw.PathStroke(color, 0, line);
+}
+
 void draw_warning(const Ui& ui, ImVec2 centre) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float r = ui.theme.px(6.0f), y = centre.y + ui.theme.px(0.5f);

@@ -8,6 +8,7 @@
 #include "ui/picture_tools.h"
 #include "ui/report.h"
 #include "ui/scene_audit.h"
+#include "ui/selection.h"
 #include "ui/theme.h"
 
 #include <string>
@@ -15,8 +16,6 @@
 #include <vector>
 
 namespace farfield {
-
-using Edits = std::vector<Edit>;
 
 /// What number fields remember between frames, for the one that has the mouse or the keyboard.
 struct NumberEntry {
@@ -35,21 +34,36 @@ struct KindSearch {
     int marked = 0;  ///< which of those found Enter takes
 };
 
+/// What the tree is searched for; without words it shows everything.
+struct TreeSearch {
+    std::string text;
+    bool focus = false;  ///< the tree puts the keyboard into the field, once
+};
+
 struct Ui {
     Ui(const Theme& look, Report to) : theme(look), report(std::move(to)) {}
 
+    Selection selected() const { return {selection, further}; }
+    void select(Selection all) {
+        selection = all.primary;
+        further = std::move(all.further);
+    }
+
     Theme theme;
     Report report;
-    ObjectRef selection;  ///< may name an object that is gone
-    ObjectRef inspected;  ///< what the inspector shows: follows the selection a frame late, so that a field that loses
-                          ///< the keyboard to a click elsewhere can still hand in what was typed
+    ObjectRef selection;   ///< may name an object that is gone
+    FurtherNodes further;  ///< selected beside it
+    ObjectRef inspected;   ///< what the inspector shows: follows the selection a frame late, so that a field that loses
+                           ///< the keyboard to a click elsewhere can still hand in what was typed
     View view = View::result;
     PictureTools tools;
     bool show_statistics = true;
     bool show_shortcuts = false;
     bool show_code = false;
     bool show_measure = false;
-    Id reveal = 0;            ///< node, material or light that its list scrolls to, once
+    bool show_history = false;
+    Id reveal = 0;  ///< node, material or light that its list scrolls to, once
+    TreeSearch tree_search;
     bool open_add = false;    ///< the tree opens its list of kinds to add, once
     bool focus_name = false;  ///< the inspector puts the keyboard into the name field, once
     std::string name_text;    ///< what the name field holds while someone types
@@ -57,6 +71,8 @@ struct Ui {
     const CodeTrust* trust = nullptr;       ///< which code may run; null: all
     std::shared_ptr<const CustomCode> run;  ///< code that the user accepts, for whoever draws the panels
     bool hand_in = false;                   ///< for a frame: what is being typed is about to be saved
+    std::string problem;                    ///< what a panel could not do, likewise
+    bool in_code = false;                   ///< the code has the keyboard: keys that select and cut text are for it
     bool edit_code = false;  ///< the code panel shows the custom code of the selected node, when there is
     KindSearch kind_search;
     SceneAudit audit;
@@ -82,6 +98,10 @@ void tooltip(const Ui& ui, std::string_view text, std::string_view hint = {});
 
 /// The sign of a node's role: disc, two discs, four dots or a ring.
 void draw_icon(const Ui& ui, Role role, ImVec2 centre);
+
+/// An open eye, or a crossed one; an open or closed padlock.
+void draw_eye(const Ui& ui, bool open, ImVec2 centre, ImU32 color);
+void draw_lock(const Ui& ui, bool closed, ImVec2 centre, ImU32 color);
 
 /// The sign that something is likely to be wrong.
 void draw_warning(const Ui& ui, ImVec2 centre);
