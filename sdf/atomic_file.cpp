@@ -41,8 +41,8 @@ fs::path without_links(fs::path file) {
 }
 
 bool names(const fs::path& path, const Descriptor& file) {
-    struct stat by_name {
-    }, opened{};
+    struct stat by_name {};
+    struct stat opened {};
     return ::lstat(path.c_str(), &by_name) == 0 && ::fstat(file.get(), &opened) == 0 &&
            by_name.st_dev == opened.st_dev && by_name.st_ino == opened.st_ino && S_ISREG(opened.st_mode);
 }

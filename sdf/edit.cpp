@@ -511,6 +511,13 @@ void History::replace(Scene scene) {
     current_ = 0;
 }
 
+void History::record(Scene scene, std::string description) {
+    scene.next_id = std::max(scene.next_id, steps_[current_].scene.next_id);
+    steps_.resize(current_ + 1);
+    steps_.push_back({std::move(scene), std::move(description), 0, next_revision_++});
+    ++current_;
+}
+
 bool History::can_undo() const { return current_ > 0; }
 bool History::can_redo() const { return current_ + 1 < steps_.size(); }
 

@@ -107,6 +107,8 @@ public:
     /// Edits that carry the same non-zero `gesture` (one drag of a slider) make one step.
     Id apply(const Edit& edit, unsigned gesture = 0);
     void replace(Scene scene);  ///< a new document: forgets all steps
+    /// A step that was made elsewhere.
+    void record(Scene scene, std::string description);
     bool can_undo() const;
     bool can_redo() const;
     void undo();
