@@ -135,7 +135,8 @@ void Autosave::refresh(const Document& document, const CodeDrafts& drafts, doubl
     if (!lock_) return;
     if (told_ != document.file()) {
         told_ = document.file();
-        const std::string text = fs::absolute(*told_).lexically_normal().string();
+        std::error_code ignored;
+        const std::string text = told_->empty() ? "" : fs::absolute(*told_, ignored).lexically_normal().string();
         if (::ftruncate(lock_.get(), 0) != 0 || ::pwrite(lock_.get(), text.data(), text.size(), 0) < 0)
             told_.reset();  // again the next time
     }

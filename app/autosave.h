@@ -7,6 +7,7 @@
 #pragma once
 
 #include "app/document.h"
+#include "sdf/code_drafts.h"
 #include "sdf/descriptor.h"
 
 #include <condition_variable>
@@ -17,9 +18,6 @@
 #include <thread>
 
 namespace farfield {
-
-/// Text that was typed as the code of a node and not handed in.
-using CodeDrafts = std::map<Id, std::string>;
 
 /// What an editor left that did not end cleanly.
 struct LeftWork {

@@ -27,6 +27,8 @@ constexpr Command commands[] = {
     {CommandId::open, "File", "open", "Open...", 'O', ctrl, "Ctrl+O"},
     {CommandId::save, "File", "save", "Save", 'S', ctrl, "Ctrl+S", true},
     {CommandId::save_as, "File", "save_as", "Save as...", 'S', ctrl | shift, "Ctrl+Shift+S"},
+    {CommandId::export_picture, "File", "export_picture", "Export picture...", 'E', ctrl, "Ctrl+E", true},
+    {CommandId::recover, "File", "recover", "Recover unsaved work...", 0, plain, ""},
     {CommandId::quit, "File", "quit", "Quit", 'Q', ctrl, "Ctrl+Q", true},
     {CommandId::undo, "Edit", "undo", "Undo", 'Z', ctrl, "Ctrl+Z"},
     {CommandId::redo, "Edit", "redo", "Redo", 'Y', ctrl, "Ctrl+Y, Ctrl+Shift+Z"},
@@ -120,7 +122,8 @@ std::optional<View> view_for(const KeyPress& press) {
     return views()[static_cast<std::size_t>(index)].view;
 }
 
-std::optional<CommandId> command_menus(Ui& ui, const std::function<bool(CommandId)>& enabled) {
+std::optional<CommandId> command_menus(Ui& ui, const std::function<bool(CommandId)>& enabled,
+                                       const std::function<void(CommandId)>& below) {
     std::optional<CommandId> chosen;
     for (const char* menu : menus) {
         const bool open = ImGui::BeginMenu(menu);
@@ -133,6 +136,7 @@ std::optional<CommandId> command_menus(Ui& ui, const std::function<bool(CommandI
             if (ImGui::MenuItem(command.label, command.key_text, is_on(ui, command.id), enabled(command.id)))
                 chosen = command.id;
             ui.report.item(fmt::format("menu/{}", menu), command.name);
+            below(command.id);
         }
         ImGui::EndMenu();
     }
@@ -148,7 +152,8 @@ void shortcut_list(Ui& ui) {
             ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoCollapse)) {
         if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit | ImGuiTableFlags_PadOuterX)) {
             for (const auto& [action, effect] : mouse) table_line(ui, action, effect);
-            for (const Command& command : commands) table_line(ui, command.key_text, command.label);
+            for (const Command& command : commands)
+                if (command.key != 0) table_line(ui, command.key_text, command.label);
             table_line(ui, "1 ... 9", "Views, from Result to Step count");
             ImGui::EndTable();
         }

@@ -14,6 +14,8 @@ enum class CommandId {
     open,
     save,
     save_as,
+    export_picture,
+    recover,
     quit,
     undo,
     redo,
@@ -40,7 +42,9 @@ std::optional<CommandId> command_for(const KeyPress& press);
 std::optional<View> view_for(const KeyPress& press);
 
 /// Draws the menus inside an open menu bar. `enabled` says what can be done now.
-std::optional<CommandId> command_menus(Ui& ui, const std::function<bool(CommandId)>& enabled);
+/// `below` draws what a menu has below a command beside the table's entries.
+std::optional<CommandId> command_menus(Ui& ui, const std::function<bool(CommandId)>& enabled,
+                                       const std::function<void(CommandId)>& below);
 
 /// The window that lists keys and mouse, while ui.show_shortcuts.
 void shortcut_list(Ui& ui);

@@ -104,6 +104,21 @@ TEST(Autosave, UnsavedWorkIsRecoveredWithItsFileAndDrafts) {
     EXPECT_EQ(entries(state), 0u);
 }
 
+TEST(Autosave, ADocumentWithoutAFileIsRecoveredWithoutOne) {
+    TemporaryFolder folder;
+    crash_after([&] {
+        CodeTrust trust;
+        Document document(trust);
+        document.apply(InsertNode{document.scene().root.id, 0, make_node(NodeKind::sphere)}, 0);
+        Autosave autosave(folder / "state");
+        keep(autosave, document);
+    });
+    Autosave autosave(folder / "state");
+    ASSERT_EQ(autosave.left().size(), 1u);
+    EXPECT_EQ(autosave.left()[0].file, "");
+    EXPECT_EQ(autosave.recover(autosave.left()[0]).scene.root.children.size(), 1u);
+}
+
 TEST(Autosave, ARecoveredCopyOutlivesAnotherCrash) {
     TemporaryFolder folder;
     const fs::path file = folder / "a.json", state = folder / "state";

@@ -534,7 +534,8 @@ def custom_code(editor, foreign, trusted):
 def main():
     program, bundled = sys.argv[1], Path(sys.argv[2])
     with tempfile.TemporaryDirectory(prefix="farfield-test-") as folder, Display() as display:
-        display.environment["XDG_CONFIG_HOME"] = display.environment["XDG_CACHE_HOME"] = folder
+        for kind in ("CONFIG", "CACHE", "STATE"):
+            display.environment[f"XDG_{kind}_HOME"] = folder
         scene = Path(folder) / "scene.json"
         shutil.copyfile(bundled, scene)
         original = json.loads(scene.read_text())
