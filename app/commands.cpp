@@ -123,7 +123,8 @@ int run_render(const RenderOptions& options) {
     renderer.update(headless.scene, frame);
     Progress progress("rendering", options.frames);
     if (!render_frames(renderer, options.frames, progress)) return 1;
-    for (const std::filesystem::path& file : options.outputs) write_picture(renderer, options.view, file);
+    for (const std::filesystem::path& file : options.outputs)
+        write_picture(read_picture(renderer, options.view, is_linear(file)), file);
     if (headless.scene.settings.bounces == 0 || isatty(STDERR_FILENO))
         fmt::print(stderr, "{}\n", bounces_text(renderer.statistics()));
     return 0;

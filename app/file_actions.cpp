@@ -77,7 +77,11 @@ void FileActions::settle(const fs::path& file, std::string_view text) {
     watch_.follow(file, text);
     if (file.empty()) return;
     remember_file(state_, file, editor_state_file());
-    if (const fs::path picture = Thumbnails::file_of(file); !picture.empty()) thumbnail_ = picture;
+    want_thumbnail();
+}
+
+void FileActions::want_thumbnail() {
+    if (const fs::path picture = Thumbnails::file_of(document_.file()); !picture.empty()) thumbnail_ = picture;
 }
 
 void FileActions::load(const fs::path& file, bool trust_code) {
@@ -130,7 +134,7 @@ bool FileActions::refresh(const CodeDrafts& drafts, double now) {
         news_ = true;
     }
     look_at_file(watch_.look(now));
-    if (!notice_.empty() && now > notice_until_) say("");
+    if (!notice_.empty() && now > notice_until_ && !exporting_) say("");
     return std::exchange(news_, false);
 }
 
@@ -189,6 +193,7 @@ void FileActions::reload(Scene scene) {
     outdated_ = false;
     asked_ = AboutFile::nothing;
     error_.clear();
+    want_thumbnail();
     say(fmt::format("{} was changed by another program and read again", document_.name()));
 }
 
@@ -215,6 +220,7 @@ void FileActions::recover(const LeftWork& work) {
 }
 
 void FileActions::exported(const WrittenPicture& picture) {
+    exporting_ = false;
     if (picture.error.empty())
         say(fmt::format("The picture is in {}", picture.file.string()));
     else
@@ -227,6 +233,7 @@ void FileActions::draw(Ui& ui) {
             load(*file);
         } else if (mode_ == FileDialog::Mode::picture) {
             export_ = last_export_ = *file;
+            exporting_ = true;
             say("Writing the picture...");
         } else if (write(*file) && after_save_) {
             std::exchange(after_save_, nullptr)();

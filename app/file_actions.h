@@ -73,6 +73,7 @@ private:
     void fail(About about, std::string error) {
         about_ = about;
         error_ = std::move(error);
+        notice_.clear();
     }
     void say(std::string notice);
 
@@ -82,6 +83,7 @@ private:
     void show(Scene scene, const std::filesystem::path& file, std::string_view text);
     bool write(const std::filesystem::path& file);
     void settle(const std::filesystem::path& file, std::string_view text);
+    void want_thumbnail();
     void look_at_file(FileWatch::News news);
     void read_theirs();
     void take_theirs(Scene scene);
@@ -124,6 +126,7 @@ private:
 
     std::optional<std::filesystem::path> export_, thumbnail_;
     std::filesystem::path last_export_;
+    bool exporting_ = false;
     std::string error_, notice_, autosave_problem_;
     About about_ = About::edit;  ///< the error
     double now_ = 0.0, notice_until_ = 0.0;

@@ -12,14 +12,23 @@ std::string extension_of(const std::filesystem::path& file) {
     return text;
 }
 
-void write_picture(Renderer& renderer, View view, const std::filesystem::path& file) {
-    if (extension_of(file) != ".exr") return write_display(file, renderer.size(), renderer.display_pixels());
-    std::vector<Layer> layers{{"", renderer.read(view)}};
-    for (const ViewInfo& info : views()) layers.push_back({info.key, renderer.read(info.view)});
-    write_exr(file, layers);
+bool is_linear(const std::filesystem::path& file) { return extension_of(file) == ".exr"; }
+
+Picture read_picture(Renderer& renderer, View view, bool linear) {
+    if (!linear) return {renderer.size(), renderer.display_pixels(), {}};
+    Picture picture{renderer.size(), {}, {{"", renderer.read(view)}}};
+    for (const ViewInfo& info : views()) picture.layers.push_back({info.key, renderer.read(info.view)});
+    return picture;
 }
 
-void write_small_picture(Renderer& renderer, glm::ivec2 room, const std::filesystem::path& file) {
+void write_picture(const Picture& picture, const std::filesystem::path& file) {
+    if (picture.layers.empty())
+        write_display(file, picture.size, picture.pixels);
+    else
+        write_exr(file, picture.layers);
+}
+
+Picture read_small_picture(Renderer& renderer, glm::ivec2 room) {
     const glm::ivec2 size = renderer.size();
     const std::vector<unsigned char> pixels = renderer.display_pixels();
     const glm::vec2 fit = glm::vec2(room) / glm::vec2(size);
@@ -40,7 +49,7 @@ void write_small_picture(Renderer& renderer, glm::ivec2 room, const std::filesys
                 shrunk.push_back(static_cast<unsigned char>(sum / (extent.x * extent.y)));
             }
         }
-    write_display(file, small, shrunk);
+    return {small, std::move(shrunk), {}};
 }
 
 }  // namespace farfield

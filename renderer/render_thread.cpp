@@ -8,6 +8,7 @@
 #include <cmath>
 #include <condition_variable>
 #include <exception>
+#include <future>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -62,6 +63,7 @@ struct RenderThread::State {
     std::vector<WrittenPicture> written;
 
     std::thread thread;
+    std::vector<std::future<void>> writing;  ///< of the thread; each is waited for at the end
 
     // The rest belongs to the thread.
     std::optional<Renderer> renderer;
@@ -176,7 +178,11 @@ void RenderThread::State::run() {
 bool RenderThread::State::wait_for_work() {
     std::unique_lock lock(mutex);
     const bool idle = !has_work() || (finished() && !unshown);
-    if (idle) wake.wait(lock, [&] { return stop || next || can_write(); });
+    if (idle) {
+        const Clock::time_point start = Clock::now();
+        wake.wait(lock, [&] { return stop || next || can_write(); });
+        renderer->paused(Clock::now() - start);
+    }
     if (stop) return false;
     // A quick picture is finished and shown before a newer request counts: a hand that moves all the time must see
     // something.
@@ -276,10 +282,10 @@ bool RenderThread::State::grants(const PictureWish& wish) const {
     return wish.room.x == 0 || (wish.scene == current.scene && renderer->statistics().frames >= wish.frames);
 }
 
-/// With the mutex locked: whether a wish can be granted now, between two frames.
+/// With the mutex locked: whether a wish can be granted now.
 bool RenderThread::State::can_write() {
     std::erase_if(wishes, [&](const PictureWish& w) { return w.scene && w.scene != asked_for; });
-    return has_work() && !quick() && options.size == current.size && renderer->statistics().frames > 0 &&
+    return has_work() && !quick() && options.size == current.size && renderer->displayable() &&
            std::any_of(wishes.begin(), wishes.end(), [&](const PictureWish& w) { return grants(w); });
 }
 
@@ -292,28 +298,30 @@ void RenderThread::State::write_pictures() {
         granted.assign(wishes.begin(), rest);
         wishes.erase(wishes.begin(), rest);
     }
+    std::erase_if(writing, [](const std::future<void>& f) {
+        return f.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    });
     for (const PictureWish& wish : granted) {
-        std::string problem;
-        try {
-            if (wish.room.x > 0)
-                write_small_picture(*renderer, wish.room, wish.file);
-            else
-                write_picture(*renderer, options.view, wish.file);
-        } catch (const std::exception& failure) {
-            problem = failure.what();
-        }
-        const std::lock_guard lock(mutex);
-        if (wish.room.x == 0) written.push_back({wish.file, problem});
+        Picture picture = wish.room.x > 0 ? read_small_picture(*renderer, wish.room)
+                                          : read_picture(*renderer, options.view, is_linear(wish.file));
+        writing.push_back(std::async(std::launch::async, [this, wish, picture = std::move(picture)] {
+            std::string problem;
+            try {
+                write_picture(picture, wish.file);
+            } catch (const std::exception& failure) {
+                problem = failure.what();
+            }
+            const std::lock_guard lock(mutex);
+            if (wish.room.x == 0) written.push_back({wish.file, problem});
+        }));
     }
 }
 
 void RenderThread::State::work() {
     if (!has_work()) return;
-    bool whole = finished();
-    if (!whole) {
+    if (!finished()) {
         if (compile_in_background()) return;
         if (renderer->step()) {
-            whole = true;
             const Statistics& s = renderer->statistics();
             const double work_done = static_cast<double>(options.size.x) * options.size.y *
                                      (1 + (options.samples ? options.samples : current.scene->settings.samples));
@@ -327,7 +335,7 @@ void RenderThread::State::work() {
             unshown = true;
         }
     }
-    if (whole) write_pictures();
+    write_pictures();
     const bool late = renderer->statistics().samples != shown_samples &&
                       Clock::now() - shown_time > std::max<Clock::duration>(longest_wait, 3 * show_time);
     if (!renderer->displayable() || !(unshown || late)) return;

@@ -26,7 +26,7 @@ struct RenderRequest {
     int max_frames = 0;        ///< stop after so many accumulated frames; 0: go on for ever
 };
 
-/// The picture as a file, of whole frames and in full size, as soon as there is one.
+/// The picture as a file, in full size, as soon as there is one.
 struct PictureWish {
     std::filesystem::path file;  ///< as of write_picture
     /// Not zero: a small picture within so many pixels, of `scene` alone and with so many frames.

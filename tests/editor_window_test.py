@@ -70,7 +70,8 @@ class Editor:
     def __init__(self, display, program, scene, report):
         self.display, self.report_file = display, report
         self.seen = []  # every sample count that was reported, in order, until it is cleared
-        self.process = subprocess.Popen([program, str(scene), "--report", str(report)], env=display.environment)
+        files = [str(scene)] if scene else []
+        self.process = subprocess.Popen([program, *files, "--report", str(report)], env=display.environment)
 
     def __enter__(self):
         return self
