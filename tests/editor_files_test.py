@@ -11,7 +11,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from editor_window_test import PATIENCE, Display, Editor, Failure, check
+from editor_driver import PATIENCE, Display, Editor, Failure, check
 
 
 class Session:
