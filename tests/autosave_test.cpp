@@ -33,11 +33,13 @@ Edit named(const Scene& scene, const std::string& name) {
     return SetName{{ObjectType::node, scene.root.children.at(0).id}, name};
 }
 
+Id change(Document& document, const Edit& edit, unsigned gesture = 0) { return document.apply(edit, gesture); }
+
 /// A document of one node, saved in `file`.
 struct Work {
     explicit Work(const fs::path& file) {
         InsertNode insert{document.scene().root.id, 0, make_node(NodeKind::sphere)};
-        document.apply(insert, 0);
+        change(document, insert, 0);
         document.save(file);
     }
     CodeTrust trust;
@@ -74,8 +76,8 @@ TEST(Autosave, UnsavedWorkIsRecoveredWithItsFileAndDrafts) {
         Autosave autosave(state);
         keep(autosave, document);
         if (entries(state) != 1) ::_exit(1);  // the lock alone: what is saved needs no copy
-        document.apply(named(document.scene(), "mine"), 0);
-        const Id custom = document.apply(InsertNode{document.scene().root.id, 1, make_node(NodeKind::custom)}, 0);
+        change(document, named(document.scene(), "mine"), 0);
+        const Id custom = change(document, InsertNode{document.scene().root.id, 1, make_node(NodeKind::custom)}, 0);
         keep(autosave, document, {{custom, "float sdf(vec3 p) { return"}});
         if (!autosave.problem().empty()) ::_exit(2);
     });
@@ -109,7 +111,7 @@ TEST(Autosave, ADocumentWithoutAFileIsRecoveredWithoutOne) {
     crash_after([&] {
         CodeTrust trust;
         Document document(trust);
-        document.apply(InsertNode{document.scene().root.id, 0, make_node(NodeKind::sphere)}, 0);
+        change(document, InsertNode{document.scene().root.id, 0, make_node(NodeKind::sphere)}, 0);
         Autosave autosave(folder / "state");
         keep(autosave, document);
     });
@@ -125,7 +127,7 @@ TEST(Autosave, ARecoveredCopyOutlivesAnotherCrash) {
     crash_after([&] {
         Work work(file);
         Autosave autosave(state);
-        work.document.apply(named(work.document.scene(), "mine"), 0);
+        change(work.document, named(work.document.scene(), "mine"), 0);
         keep(autosave, work.document);
     });
     crash_after([&] {
@@ -144,7 +146,7 @@ TEST(Autosave, SavedAndUndoneAndDiscardedWorkLeavesNothing) {
         Work work(file);
         Document& document = work.document;
         Autosave autosave(state);
-        document.apply(named(document.scene(), "mine"), 0);
+        change(document, named(document.scene(), "mine"), 0);
         keep(autosave, document);
         if (entries(state) != 2) ::_exit(1);
         document.undo();
@@ -154,7 +156,7 @@ TEST(Autosave, SavedAndUndoneAndDiscardedWorkLeavesNothing) {
         document.save(file);
         keep(autosave, document);
         if (entries(state) != 1) ::_exit(3);
-        document.apply(named(document.scene(), "other"), 0);
+        change(document, named(document.scene(), "other"), 0);
         keep(autosave, document);
     });
     Autosave autosave(state);
@@ -170,7 +172,7 @@ TEST(Autosave, EditorsAtOnceLeaveEachOtherAlone) {
     const fs::path file = folder / "a.json", state = folder / "state";
     Work first(file), second(folder / "b.json");
     Autosave one(state), two(state);
-    first.document.apply(named(first.document.scene(), "mine"), 0);
+    change(first.document, named(first.document.scene(), "mine"), 0);
     keep(one, first.document);
     keep(two, second.document);
     EXPECT_TRUE(two.left().empty());
@@ -218,11 +220,11 @@ void edit_until_killed(const fs::path& file, const fs::path& state, double inter
     CodeTrust trust;
     Document document(trust);
     document.open(random_scene(seed, 40), file);
-    const Id light = document.apply(AddLight{}, 0);
+    const Id light = change(document, AddLight{}, 0);
     Autosave autosave(state, interval);
     for (int i = 1; i < Log::most; ++i) {
         const glm::vec3 count{static_cast<float>(i), 0.0f, 0.0f};
-        document.apply(SetValue{{ObjectType::light, light}, "position", count}, static_cast<unsigned>(i / 10 + 1));
+        change(document, SetValue{{ObjectType::light, light}, "position", count}, static_cast<unsigned>(i / 10 + 1));
         log.time[i] = seconds();
         log.edits = i;
         if (random() % rarity == 0) {

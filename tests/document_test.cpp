@@ -15,6 +15,8 @@ namespace {
 namespace fs = std::filesystem;
 using News = FileWatch::News;
 
+Id change(Document& document, const Edit& edit, unsigned gesture = 0) { return document.apply(edit, gesture); }
+
 /// All news of some seconds.
 std::vector<News> look(FileWatch& watch, double& now) {
     std::vector<News> news;
@@ -141,7 +143,7 @@ TEST(Document, AReloadIsOneStepAndTheCameraStaysUnlessTheFileMovesIt) {
     EXPECT_TRUE(document.saved());
 
     const glm::vec3 mine{1.0f, 2.0f, 3.0f};
-    document.apply(SetValue{{ObjectType::camera, 0}, "position", mine}, 0);
+    change(document, SetValue{{ObjectType::camera, 0}, "position", mine}, 0);
     EXPECT_FALSE(document.saved());
     EXPECT_TRUE(document.saved_but_for_camera());
     theirs.lights.pop_back();
@@ -154,7 +156,7 @@ TEST(Document, AReloadIsOneStepAndTheCameraStaysUnlessTheFileMovesIt) {
     EXPECT_EQ(document.scene().camera.position, theirs.camera.position);
     EXPECT_TRUE(document.saved());
 
-    document.apply(SetValue{{ObjectType::settings, 0}, "exposure", glm::vec3(1.0f)}, 0);
+    change(document, SetValue{{ObjectType::settings, 0}, "exposure", glm::vec3(1.0f)}, 0);
     EXPECT_FALSE(document.saved_but_for_camera());
     document.undo();
     document.set_file_lost(true);

@@ -14,6 +14,13 @@ from pathlib import Path
 from editor_driver import PATIENCE, Display, Editor, Failure, check
 
 
+class SeenEditor(Editor):
+    def __exit__(self, failure, *rest):
+        if failure:
+            self.display.save("editor_files_failure.png")  # where ctest runs: the build folder
+        super().__exit__(failure, *rest)
+
+
 class Session:
     """A display, the user's folders, and editors in them."""
 
@@ -24,8 +31,8 @@ class Session:
     def open(self, *scene):
         """An editor that shows its window."""
         self.count += 1
-        editor = Editor(self.display, self.program, scene[0] if scene else None,
-                        self.folder / f"report{self.count}.json")
+        editor = SeenEditor(self.display, self.program, scene[0] if scene else None,
+                            self.folder / f"report{self.count}.json")
         editor.wait("a window", lambda r: "menu/File" in r["controls"])
         editor.focus = lambda: self.focus(editor)
         editor.focus()
@@ -314,38 +321,34 @@ def main():
         folder = Path(name)
         for kind in ("CONFIG", "CACHE", "STATE"):
             display.environment[f"XDG_{kind}_HOME"] = name
-        # A small window, whose pictures come soon.
+        # A small window, whose pictures come soon, with much room for the tree.
         (folder / "farfield").mkdir()
-        (folder / "farfield" / "editor.json").write_text('{"window": {"size": [820, 560]}, "statistics": false}')
+        (folder / "farfield" / "editor.json").write_text('{"window": {"size": [820, 560]}, "panels": {"objects": 120}, "statistics": false}')
         scenes = folder / "scenes"
         scenes.mkdir()
         file = scenes / "mine.json"
         session = Session(display, program, folder)
-        try:
-            with session.open() as editor:
-                for step, action in (
-                        ("a template, saved", lambda: template_and_save(editor, file)),
-                        ("another program", lambda: other_program(editor, file)),
-                        ("a lost file", lambda: lost_file(editor, file)),
-                        ("no scene", lambda: no_scene(editor, folder)),
-                        ("export", lambda: export(editor, folder)),
-                        ("a large folder", lambda: large_folder(editor, folder)),
-                        ("two editors", lambda: two_editors(session, editor, file)),
-                        ("drafts", lambda: drafts(editor, file))):
-                    print(f"{step} ...", flush=True)
-                    action()
-                editor.key("ctrl+q")
-                editor.click("unsaved/discard")
-                check(editor.process.wait(PATIENCE) == 0, "the editor ends with status 0")
-            check(session.work() == [], "a clean end leaves nothing")
-            for step, action in (("kills", lambda: kills(session, file, 4)),
-                                 ("left work", lambda: left_work(session, file)),
-                                 ("remembered", lambda: remembered(session))):
+        with session.open() as editor:
+            for step, action in (
+                    ("a template, saved", lambda: template_and_save(editor, file)),
+                    ("another program", lambda: other_program(editor, file)),
+                    ("a lost file", lambda: lost_file(editor, file)),
+                    ("no scene", lambda: no_scene(editor, folder)),
+                    ("export", lambda: export(editor, folder)),
+                    ("a large folder", lambda: large_folder(editor, folder)),
+                    ("two editors", lambda: two_editors(session, editor, file)),
+                    ("drafts", lambda: drafts(editor, file))):
                 print(f"{step} ...", flush=True)
                 action()
-        except Failure:
-            display.save("editor_files_failure.png")  # where ctest runs: the build folder
-            raise
+            editor.key("ctrl+q")
+            editor.click("unsaved/discard")
+            check(editor.process.wait(PATIENCE) == 0, "the editor ends with status 0")
+        check(session.work() == [], "a clean end leaves nothing")
+        for step, action in (("kills", lambda: kills(session, file, 4)),
+                             ("left work", lambda: left_work(session, file)),
+                             ("remembered", lambda: remembered(session))):
+            print(f"{step} ...", flush=True)
+            action()
     print("all steps passed")
 
 
