@@ -1,5 +1,7 @@
 #include "app/window.h"
 
+#include "ui/ui.h"
+
 #include <glad/gl.h>
 
 #include <GLFW/glfw3.h>
@@ -161,6 +163,7 @@ void Window::begin_frame(bool hold_keys) {
     ImGui_ImplGlfw_NewFrame();
     keys_ = input_.queue.deliver(window_, hold_keys);
     ImGui::NewFrame();
+    forget_text_undo();
 }
 
 void Window::end_frame() {

@@ -252,9 +252,10 @@ def kills(session, file, count):
             done = editor.report()
             time.sleep(2.5 if turn == 0 else dice.random())
             editor.process.kill()
+            check(turn > 0 or done["saved"] or ".work" in session.work(), "unsaved work is kept after seconds")
         spheres = json.loads(file.read_text())["root"]["children"]
         with session.open() as editor:
-            if turn == 0 or "recover/later" in editor.report()["controls"]:
+            if ".work" in session.work():
                 editor.click("recover/open/0")
                 editor.wait("the work", lambda r: r["file"] == str(file) and not r["saved"] and
                             "recover/later" not in r["controls"])

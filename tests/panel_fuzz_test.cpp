@@ -96,6 +96,7 @@ public:
         ImGuiIO& io = ImGui::GetIO();
         io.DeltaTime = 0.01f + 0.01f * static_cast<float>(hand_.number() % 40);
         ImGui::NewFrame();
+        forget_text_undo();
         if (!ImGui::IsAnyItemActive()) ++gesture_;
         draw();
         ImGui::Render();
