@@ -137,7 +137,7 @@ private:
         submit(result.viewport.size);
         if (const auto file = files_.take_export()) render_.write({.file = *file});
         if (const auto file = files_.take_thumbnail(); file && ui_.view == View::result)
-            render_.write({.file = *file, .room = Thumbnails::largest, .scene = document_.snapshot(), .frames = 2});
+            render_.write({.file = *file, .room = Thumbnails::largest, .scene = document_.snapshot()});
     }
 
     void remember_state() {

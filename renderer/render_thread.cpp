@@ -279,7 +279,7 @@ bool RenderThread::State::compile_in_background() {
 
 /// Whether the picture is what the wish is for.
 bool RenderThread::State::grants(const PictureWish& wish) const {
-    return wish.room.x == 0 || (wish.scene == current.scene && renderer->statistics().frames >= wish.frames);
+    return wish.room.x == 0 || wish.scene == current.scene;
 }
 
 /// With the mutex locked: whether a wish can be granted now.

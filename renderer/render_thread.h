@@ -29,10 +29,9 @@ struct RenderRequest {
 /// The picture as a file, in full size, as soon as there is one.
 struct PictureWish {
     std::filesystem::path file;  ///< as of write_picture
-    /// Not zero: a small picture within so many pixels, of `scene` alone and with so many frames.
+    /// Not zero: a small picture within so many pixels, of `scene` alone.
     glm::ivec2 room{0};
     std::shared_ptr<const Scene> scene = nullptr;
-    int frames = 1;
 };
 struct WrittenPicture {
     std::filesystem::path file;

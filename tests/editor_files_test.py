@@ -302,17 +302,17 @@ def left_work(session, file):
 def remembered(session):
     """Panels are as they were left."""
     with session.open() as editor:
-        width = editor.place("splitter/left")[0]
-        editor.drag("splitter/left", by=60)
-        editor.wait("a wider tree", lambda r: r["controls"]["splitter/left"][0] >= width + 50)
-        editor.key("F3", "F4")
-        editor.wait("the code", lambda r: "code/copy" in r["controls"])
-        wide = editor.place("splitter/left")[0]
+        left = editor.place("splitter/left")[0]
+        shown = "code" in editor.report()
+        editor.drag("splitter/left", by=-30)
+        editor.wait("a narrower tree", lambda r: r["controls"]["splitter/left"][0] <= left - 20)
+        editor.key("F4")
+        editor.wait("the other way", lambda r: ("code" in r) != shown)
+        left = editor.place("splitter/left")[0]
         quit(editor)
     with session.open() as editor:
-        report = editor.wait("the code", lambda r: "code/copy" in r["controls"])
-        check(abs(report["controls"]["splitter/left"][0] - wide) <= 1, "the tree is as wide as before")
-        editor.key("F4")
+        report = editor.wait("the code as it was left", lambda r: ("code" in r) != shown)
+        check(abs(report["controls"]["splitter/left"][0] - left) <= 1, "the tree is as wide as before")
         quit(editor)
 
 
