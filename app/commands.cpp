@@ -1,6 +1,7 @@
 #include "app/commands.h"
 
 #include "app/progress.h"
+#include "renderer/picture_file.h"
 #include "renderer/renderer.h"
 #include "sdf/code_trust.h"
 #include "sdf/codegen.h"
@@ -13,31 +14,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <chrono>
 #include <numeric>
 
 namespace farfield {
 namespace {
-
-bool has_extension(const std::filesystem::path& file, std::string_view extension) {
-    std::string text = file.extension().string();
-    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-    return text == extension;
-}
-
-void write_outputs(Renderer& renderer, const std::vector<std::filesystem::path>& outputs, View view) {
-    for (const std::filesystem::path& file : outputs) {
-        if (has_extension(file, ".exr")) {
-            std::vector<Layer> layers{{"", renderer.read(view)}};
-            for (const ViewInfo& info : views()) layers.push_back({info.key, renderer.read(info.view)});
-            write_exr(file, layers);
-        } else {
-            write_display(file, renderer.size(), renderer.display_pixels());
-        }
-    }
-}
 
 /// A scene with the settings of the command line, and a renderer in a context of its own.
 struct Headless {
@@ -74,7 +56,7 @@ bool render_frames(Renderer& renderer, int frames, Progress& progress) {
 }
 
 void check_output(const std::filesystem::path& file, std::initializer_list<std::string_view> extensions) {
-    if (std::none_of(extensions.begin(), extensions.end(), [&](auto e) { return has_extension(file, e); }))
+    if (std::none_of(extensions.begin(), extensions.end(), [&](auto e) { return extension_of(file) == e; }))
         throw std::invalid_argument(fmt::format("--output: \"{}\" given, expected a name that ends in {}",
                                                 file.string(), fmt::join(extensions, " or ")));
     const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
@@ -141,7 +123,8 @@ int run_render(const RenderOptions& options) {
     renderer.update(headless.scene, frame);
     Progress progress("rendering", options.frames);
     if (!render_frames(renderer, options.frames, progress)) return 1;
-    write_outputs(renderer, options.outputs, options.view);
+    for (const std::filesystem::path& file : options.outputs)
+        write_picture(read_picture(renderer, options.view, is_linear(file)), file);
     if (headless.scene.settings.bounces == 0 || isatty(STDERR_FILENO))
         fmt::print(stderr, "{}\n", bounces_text(renderer.statistics()));
     return 0;

@@ -1,8 +1,18 @@
 #include "app/document.h"
 
+#include "sdf/matching_ids.h"
 #include "sdf/scene_file.h"
 
+#include <fmt/format.h>
+
 namespace farfield {
+namespace {
+
+bool same(const Camera& a, const Camera& b) {
+    return a.position == b.position && a.target == b.target && a.field_of_view == b.field_of_view;
+}
+
+}  // namespace
 
 Scene new_scene() {
     Scene scene;
@@ -35,26 +45,57 @@ std::vector<Id> Document::apply(const Edits& edits, unsigned gesture) {
     return ids;
 }
 
-void Document::reset() {
-    history_.replace(new_scene());
-    file_.clear();
-    ++generation_;
-    first_camera_ = scene().camera;
-    saved_revision_ = history_.revision();
-}
-
-void Document::open(Scene scene, const std::filesystem::path& file) {
+void Document::begin(Scene scene, const std::filesystem::path& file) {
     history_.replace(std::move(scene));
     file_ = file;
     ++generation_;
     first_camera_ = history_.scene().camera;
+    in_file_ = nullptr;
+    file_lost_ = false;
+    saved_revision_ = 0;
+}
+
+void Document::reset(Scene scene) {
+    begin(std::move(scene), {});
     saved_revision_ = history_.revision();
+}
+
+void Document::open(Scene scene, const std::filesystem::path& file) {
+    begin(std::move(scene), file);
+    in_file_ = std::make_shared<const Scene>(history_.scene());
+    saved_revision_ = history_.revision();
+}
+
+void Document::recover(Scene scene, const std::filesystem::path& file) { begin(std::move(scene), file); }
+
+void Document::reload(Scene scene) {
+    scene = with_ids_of(std::move(scene), history_.scene());
+    const std::shared_ptr<const Scene> before = std::exchange(in_file_, std::make_shared<const Scene>(scene));
+    file_lost_ = false;
+    const bool touched = !before || !same(before->camera, scene.camera);
+    if (touched)
+        first_camera_ = scene.camera;
+    else
+        scene.camera = history_.scene().camera;
+    const bool as_in_file = same(scene.camera, in_file_->camera);
+    history_.record(std::move(scene), fmt::format("reload {}", name()));
+    saved_revision_ = as_in_file ? history_.revision() : 0;
 }
 
 void Document::save(const std::filesystem::path& file) {
     save_scene(scene(), file);
     file_ = file;
+    in_file_ = std::make_shared<const Scene>(scene());
+    file_lost_ = false;
     saved_revision_ = history_.revision();
+}
+
+bool Document::saved_but_for_camera() const {
+    if (saved()) return true;
+    if (file_lost_ || !in_file_) return false;
+    Scene moved = *in_file_;
+    moved.camera = scene().camera;
+    return to_text(moved) == to_text(scene());
 }
 
 }  // namespace farfield

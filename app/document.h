@@ -34,26 +34,40 @@ public:
     void go_to(std::size_t step) { history_.go_to(step); }
     void cancel(unsigned gesture) { history_.cancel(gesture); }
 
-    void reset();
+    /// A new document without a file.
+    void reset(Scene scene = new_scene());
     /// The scene of `file` takes this one's place.
     void open(Scene scene, const std::filesystem::path& file);
+    /// Work on `file` that was not saved takes its place.
+    void recover(Scene scene, const std::filesystem::path& file);
+    /// Another program has written the file: what it says now is one step of undo. What both have keeps its identity,
+    /// and a camera that the other did not touch stays where it is here.
+    void reload(Scene scene);
     /// Throws SceneFileError.
     void save(const std::filesystem::path& file);
+    /// Whether the file is not there any more, and with it what was saved.
+    void set_file_lost(bool lost) { file_lost_ = lost; }
 
     /// Where the camera was when the document was opened or begun.
     const Camera& first_camera() const { return first_camera_; }
     /// Changes when another document takes this one's place.
     std::uint64_t generation() const { return generation_; }
     const std::filesystem::path& file() const { return file_; }  ///< empty for a document that was never saved
-    bool saved() const { return history_.revision() == saved_revision_; }
+    bool saved() const { return !file_lost_ && history_.revision() == saved_revision_; }
+    /// Whether the file holds everything but where the camera stands.
+    bool saved_but_for_camera() const;
     std::string name() const { return file_.empty() ? "untitled" : file_.filename().string(); }
 
 private:
+    void begin(Scene scene, const std::filesystem::path& file);
+
     CodeTrust& trust_;
     History history_;
     std::filesystem::path file_;
     Camera first_camera_;
-    std::uint64_t saved_revision_ = 0;
+    std::shared_ptr<const Scene> in_file_;  ///< what the file says; null where that is not known
+    bool file_lost_ = false;
+    std::uint64_t saved_revision_ = 0;  ///< 0: none
     std::uint64_t generation_ = 0;
     std::shared_ptr<const Scene> snapshot_;
     std::pair<std::uint64_t, std::size_t> snapshot_revision_;  ///< of the document and of what may run

@@ -52,10 +52,13 @@ bool moves_camera(const Edit& edit) {
 class Editor {
 public:
     explicit Editor(const EditorOptions& options)
-        : window_({options.width, options.height}, "Farfield"),
+        : window_({state_.size, state_.place, state_.maximised}, "Farfield"),
           render_(window_.make_shared_context()),
           ui_(theme_for(window_), Report(options.report)),
-          layout_(ui_.theme) {
+          layout_(state_.panels) {
+        ui_.show_statistics = state_.statistics;
+        ui_.show_code = state_.code;
+        ui_.show_measure = state_.measure;
         if (!options.scene.empty()) files_.open(options.scene, options.trust_code);
         show_new_document();
     }
@@ -71,10 +74,15 @@ public:
             const bool news = look_for_picture();
             if (first && picture_.texture != 0) redraws = settling_frames;
             const bool measured = measuring_.refresh(document_.scene(), document_.revision());
-            if (news || measured || ui_.audit.finished() || layout_.news() || redraws > 0 || attentive) frame();
+            const bool of_files = files_.refresh(layout_.code().drafts(document_.scene()), seconds());
+            while (const auto written = render_.written()) files_.exported(*written);
+            if (news || measured || of_files || ui_.audit.finished() || layout_.news() || redraws > 0 || attentive)
+                frame();
             if (redraws > 0) --redraws;
             write_report();
         }
+        files_.end();
+        remember_state();
     }
 
 private:
@@ -112,7 +120,7 @@ private:
         ui_.trust = &trust_;
         ui_.in_code = false;
         const ViewportInput input{document_.snapshot(), flight()};
-        const LayoutResult result = layout_.draw(ui_, {size.x, size.y}, document_, input, picture_, files_.error(),
+        const LayoutResult result = layout_.draw(ui_, {size.x, size.y}, document_, input, picture_, files_,
                                                  measuring_.results(), [&](CommandId id) { return enabled(id); });
         ui_.hand_in = false;
         for (const Edits& edits : result.edits) carry_out(edits, gesture_);
@@ -134,6 +142,22 @@ private:
         window_.set_title(fmt::format("{}{} - Farfield", document_.saved() ? "" : "* ", document_.name()));
         window_.end_frame();
         submit(result.viewport.size);
+        if (const auto file = files_.take_export()) render_.write({.file = *file});
+        if (const auto file = files_.take_thumbnail(); file && ui_.view == View::result)
+            render_.write({.file = *file, .room = Thumbnails::largest, .scene = document_.snapshot()});
+    }
+
+    void remember_state() {
+        const Window::Frame frame = window_.frame();
+        state_.size = frame.size;
+        state_.place = frame.place;
+        state_.maximised = frame.maximised;
+        state_.panels = layout_.sizes();
+        state_.statistics = ui_.show_statistics;
+        state_.code = ui_.show_code;
+        state_.measure = ui_.show_measure;
+        state_.recent = load_editor_state(editor_state_file()).recent;  // others may have opened more
+        save_editor_state(state_, editor_state_file());
     }
 
     /// Keys that fly while the mouse holds the picture.
@@ -152,7 +176,7 @@ private:
     }
 
     void show_new_document() {
-        layout_.forget();
+        layout_.show_new_document(files_.take_drafts());
         shown_document_ = document_.generation();
         ui_.select(select(ObjectRef{ObjectType::node, document_.scene().root.id}));
         ui_.inspected = ui_.selection;
@@ -255,6 +279,10 @@ private:
                 return document_.history().can_undo();
             case CommandId::redo:
                 return document_.history().can_redo();
+            case CommandId::export_picture:
+                return picture_.texture != 0;
+            case CommandId::recover:
+                return files_.can_recover();
             case CommandId::rename:
                 return ui_.selection.id != 0 && exists(scene, ui_.selection) &&
                        selected_nodes(ui_.selected()).size() < 2;
@@ -286,6 +314,12 @@ private:
                 break;
             case CommandId::save_as:
                 files_.save_as();
+                break;
+            case CommandId::export_picture:
+                files_.export_picture();
+                break;
+            case CommandId::recover:
+                files_.ask_to_recover();
                 break;
             case CommandId::quit:
                 files_.quit();
@@ -423,6 +457,7 @@ private:
                           .saved = document_.saved(),
                           .file = document_.file().string(),
                           .error = files_.error().empty() ? picture_.error : files_.error(),
+                          .notice = files_.notice(),
                           .selection = selection_name(),
                           .selected = selected_names(),
                           .step = document_.history().position(),
@@ -433,12 +468,13 @@ private:
                          seconds());
     }
 
+    EditorState state_ = load_editor_state(editor_state_file());
     // In order of life: the renderer's context goes before the window it shares with.
     Window window_;
     RenderThread render_;
     CodeTrust trust_{CodeTrust::user_file()};
     Document document_{trust_};
-    FileActions files_{document_};
+    FileActions files_{document_, state_};
     Ui ui_;
     Layout layout_;
     Measuring measuring_;

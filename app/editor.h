@@ -9,7 +9,6 @@ struct EditorOptions {
     std::filesystem::path scene;   ///< empty: a new scene
     std::filesystem::path report;  ///< where to write what tests need to know; empty: nowhere
     bool trust_code = false;       ///< run the scene's custom code without asking
-    int width = 1440, height = 900;
 };
 
 /// Runs until the window is closed; returns the exit status. Throws ContextError when no window can be opened,

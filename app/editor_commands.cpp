@@ -30,6 +30,8 @@ constexpr Command commands[] = {
     {CommandId::open, "File", "open", "Open...", 'O', ctrl, "Ctrl+O"},
     {CommandId::save, "File", "save", "Save", 'S', ctrl, "Ctrl+S", true},
     {CommandId::save_as, "File", "save_as", "Save as...", 'S', ctrl | shift, "Ctrl+Shift+S"},
+    {CommandId::export_picture, "File", "export_picture", "Export picture...", 'E', ctrl, "Ctrl+E", true},
+    {CommandId::recover, "File", "recover", "Recover unsaved work...", 0, plain, ""},
     {CommandId::quit, "File", "quit", "Quit", 'Q', ctrl, "Ctrl+Q", true},
     {CommandId::undo, "Edit", "undo", "Undo", 'Z', ctrl, "Ctrl+Z"},
     {CommandId::redo, "Edit", "redo", "Redo", 'Y', ctrl, "Ctrl+Y, Ctrl+Shift+Z"},
@@ -194,7 +196,8 @@ glm::vec3 view_direction(CommandId id) {
     }
 }
 
-std::optional<CommandId> command_menus(Ui& ui, const std::function<bool(CommandId)>& enabled) {
+std::optional<CommandId> command_menus(Ui& ui, const std::function<bool(CommandId)>& enabled,
+                                       const std::function<void(CommandId)>& below) {
     std::optional<CommandId> chosen;
     for (const char* menu : menus) {
         const bool open = ImGui::BeginMenu(menu);
@@ -207,6 +210,7 @@ std::optional<CommandId> command_menus(Ui& ui, const std::function<bool(CommandI
             if (ImGui::MenuItem(command.label, command.key_text, is_on(ui, command.id), enabled(command.id)))
                 chosen = command.id;
             ui.report.item(fmt::format("menu/{}", menu), command.name);
+            below(command.id);
         }
         ImGui::EndMenu();
     }
@@ -217,7 +221,8 @@ std::optional<CommandId> command_menus(Ui& ui, const std::function<bool(CommandI
 void shortcut_list(Ui& ui) {
     if (!ui.show_shortcuts) return;
     std::vector<std::pair<const char*, const char*>> lines(std::begin(mouse), std::end(mouse));
-    for (const Command& command : commands) lines.emplace_back(command.key_text, command.label);
+    for (const Command& command : commands)
+        if (command.key != 0) lines.emplace_back(command.key_text, command.label);
     lines.emplace_back("1 ... 9", "Views, from Result to Step count");
     // As many columns as the window's height asks for.
     const float line = ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().CellPadding.y;

@@ -16,6 +16,8 @@ enum class CommandId {
     open,
     save,
     save_as,
+    export_picture,
+    recover,
     quit,
     undo,
     redo,
@@ -73,7 +75,9 @@ bool choose_tool(PictureTools& tools, CommandId id);
 glm::vec3 view_direction(CommandId id);
 
 /// Draws the menus inside an open menu bar. `enabled` says what can be done now.
-std::optional<CommandId> command_menus(Ui& ui, const std::function<bool(CommandId)>& enabled);
+/// `below` draws what a menu has below a command beside the table's entries.
+std::optional<CommandId> command_menus(Ui& ui, const std::function<bool(CommandId)>& enabled,
+                                       const std::function<void(CommandId)>& below);
 
 /// The window that lists keys and mouse, while ui.show_shortcuts.
 void shortcut_list(Ui& ui);

@@ -1,20 +1,28 @@
 #include "app/file_actions.h"
 
+#include "app/templates.h"
 #include "sdf/scene_file.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <string_view>
-#include <unordered_set>
-#include <utility>
-
 namespace farfield {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double notice_seconds = 6.0;
+
+}  // namespace
+
+FileActions::FileActions(Document& document, EditorState& state)
+    : document_(document), state_(state), autosave_(Autosave::user_folder()), left_(autosave_.left()) {
+    recovering_ = !left_.empty();
+}
 
 void FileActions::create() {
     unless_unsaved([this] {
         document_.reset();
-        error_.clear();
+        settle({}, "");
     });
 }
 
@@ -25,13 +33,15 @@ void FileActions::open() {
     });
 }
 
-void FileActions::open(const std::filesystem::path& file, bool trust_code) {
+void FileActions::open(const fs::path& file, bool trust_code) {
     unless_unsaved([this, file, trust_code] { load(file, trust_code); });
 }
 
 void FileActions::save() {
     if (document_.file().empty())
         save_as();
+    else if (outdated_ || watch_.is_other_now())
+        asked_ = AboutFile::replace;
     else
         write(document_.file());
 }
@@ -42,147 +52,226 @@ void FileActions::save_as() {
     dialog_.show(mode_, document_.file());
 }
 
+void FileActions::export_picture() {
+    mode_ = FileDialog::Mode::picture;
+    fs::path start = last_export_;
+    if (start.empty()) start = fs::path(document_.file()).replace_filename(fs::path(document_.name()).stem() += ".png");
+    dialog_.show(mode_, start);
+}
+
 void FileActions::quit() {
     unless_unsaved([this] { quits_ = true; });
 }
 
 void FileActions::unless_unsaved(Action action) {
     after_save_ = nullptr;
-    if (document_.saved()) return action();
+    if (document_.saved() && drafts_.empty()) return action();
     waiting_ = std::move(action);
-    ask_ = true;
 }
 
-void FileActions::load(const std::filesystem::path& file, bool trust_code) {
+/// The document is as it is in `file`, or new.
+void FileActions::settle(const fs::path& file, std::string_view text) {
+    error_.clear();
+    outdated_ = false;
+    asked_ = AboutFile::nothing;
+    watch_.follow(file, text);
+    if (file.empty()) return;
+    remember_file(state_, file, editor_state_file());
+    want_thumbnail();
+}
+
+void FileActions::want_thumbnail() {
+    if (const fs::path picture = Thumbnails::file_of(document_.file()); !picture.empty()) thumbnail_ = picture;
+}
+
+void FileActions::load(const fs::path& file, bool trust_code) {
     try {
-        Scene scene = load_scene(file);
+        const std::string text = read_scene_text(file);
+        Scene scene = parse_scene(text, file.string());
         error_.clear();
         const std::vector<UnknownCode> unknown = unknown_code(scene, document_.trust());
         if (!unknown.empty() && !trust_code) {
-            foreign_ = Foreign{file, std::move(scene)};
+            foreign_ = Foreign{file, std::move(scene), text, false};
             return;
         }
         for (const UnknownCode& code : unknown) document_.accept(*code.node->code);
-        document_.open(std::move(scene), file);
+        show(std::move(scene), file, text);
     } catch (const SceneFileError& error) {
-        fail(Failed::open, error.what());
+        fail(About::opening, error.what());
     }
 }
 
-bool FileActions::write(const std::filesystem::path& file) {
+void FileActions::show(Scene scene, const fs::path& file, std::string_view text) {
+    document_.open(std::move(scene), file);
+    settle(file, text);
+    if (autosave_.is_open_elsewhere(file))
+        fail(About::opening, fmt::format("{} is open in another Farfield too. Whoever saves last replaces what the "
+                                         "other has saved.",
+                                         file.string()));
+}
+
+bool FileActions::write(const fs::path& file) {
     try {
         document_.save(file);
-        error_.clear();
+        settle(file, to_text(document_.scene()));
         return true;
     } catch (const SceneFileError& error) {
-        fail(Failed::save, error.what());
+        fail(About::saving, fmt::format("{}\nThe file is as it was, and your work is still here: make room, or save it "
+                                        "elsewhere with File, Save as (Ctrl+Shift+S).",
+                                        error.what()));
         return false;
     }
 }
 
+bool FileActions::refresh(const CodeDrafts& drafts, double now) {
+    now_ = now;
+    drafts_ = drafts;
+    autosave_.refresh(document_, drafts, now);
+    if (const std::string problem = autosave_.problem(); problem != autosave_problem_) {
+        autosave_problem_ = problem;
+        if (!problem.empty())
+            fail(About::saving, fmt::format("Unsaved work cannot be kept for the case of a crash: {}", problem));
+        news_ = true;
+    }
+    look_at_file(watch_.look(now));
+    if (!notice_.empty() && now > notice_until_ && !exporting_) say("");
+    return std::exchange(news_, false);
+}
+
+void FileActions::say(std::string notice) {
+    notice_ = std::move(notice);
+    notice_until_ = now_ + notice_seconds;
+    news_ = true;
+}
+
+void FileActions::look_at_file(FileWatch::News news) {
+    if (news == FileWatch::News::none) return;
+    news_ = true;
+    if (news == FileWatch::News::gone) {
+        document_.set_file_lost(true);
+        fail(About::saving, fmt::format("{} is not there any more. What it held is here: save it to have it back.",
+                                        document_.file().string()));
+    } else if (news == FileWatch::News::back) {
+        document_.set_file_lost(false);
+        error_.clear();
+        say(fmt::format("{} is back", document_.name()));
+    } else {
+        read_theirs();
+    }
+}
+
+/// What another program has written takes this document's place, if nothing is lost by that; otherwise it is asked.
+void FileActions::read_theirs() {
+    outdated_ = true;
+    try {
+        Scene scene = load_scene(document_.file());
+        document_.set_file_lost(false);
+        if (!document_.saved_but_for_camera() || !drafts_.empty())
+            asked_ = AboutFile::changed;
+        else
+            take_theirs(std::move(scene));
+    } catch (const SceneFileError& error) {
+        fail(About::opening,
+             fmt::format("{}\nAnother program has written this. The scene stays as it was before; it is "
+                         "read again when the file changes.",
+                         error.what()));
+    }
+}
+
+void FileActions::take_theirs(Scene scene) {
+    if (foreign_) return;
+    const std::vector<UnknownCode> unknown = unknown_code(scene, document_.trust());
+    if (!unknown.empty()) {
+        foreign_ = Foreign{document_.file(), std::move(scene), "", true};
+        return;
+    }
+    reload(std::move(scene));
+}
+
+void FileActions::reload(Scene scene) {
+    document_.reload(std::move(scene));
+    outdated_ = false;
+    asked_ = AboutFile::nothing;
+    error_.clear();
+    want_thumbnail();
+    say(fmt::format("{} was changed by another program and read again", document_.name()));
+}
+
+void FileActions::recover(const LeftWork& work) {
+    try {
+        RecoveredWork recovered = autosave_.recover(work);
+        std::string text;
+        std::error_code failed;
+        if (fs::exists(recovered.file, failed)) {
+            try {
+                text = read_scene_text(recovered.file);
+            } catch (const SceneFileError&) {  // it is replaced when the document is saved
+            }
+        }
+        document_.recover(std::move(recovered.scene), recovered.file);
+        settle(recovered.file, text);
+        thumbnail_.reset();
+        recovered_drafts_ = drafts_ = std::move(recovered.drafts);
+        say(fmt::format("{} was recovered and is not saved yet", document_.name()));
+    } catch (const std::runtime_error& error) {
+        fail(About::opening, fmt::format("The work cannot be recovered: {}", error.what()));
+    }
+    left_ = autosave_.left();
+}
+
+void FileActions::exported(const WrittenPicture& picture) {
+    exporting_ = false;
+    if (picture.error.empty())
+        say(fmt::format("The picture is in {}", picture.file.string()));
+    else
+        fail(About::opening, picture.error);
+}
+
 void FileActions::draw(Ui& ui) {
-    if (const auto file = dialog_.draw(ui)) {
-        if (mode_ == FileDialog::Mode::open)
+    if (const auto file = dialog_.draw(ui, state_)) {
+        if (mode_ == FileDialog::Mode::open) {
             load(*file);
-        else if (write(*file) && after_save_)
+        } else if (mode_ == FileDialog::Mode::picture) {
+            export_ = last_export_ = *file;
+            exporting_ = true;
+            say("Writing the picture...");
+        } else if (write(*file) && after_save_) {
             std::exchange(after_save_, nullptr)();
+        }
     }
     ask_about_unsaved(ui);
     ask_about_code(ui);
+    ask_about_file(ui);
+    ask_about_left(ui);
 }
 
-void FileActions::ask_about_code(Ui& ui) {
-    if (!foreign_) return;
-    const char* title = "Code from elsewhere";
-    if (!ImGui::IsPopupOpen(title)) ImGui::OpenPopup(title);
-    const ImVec2 room = ImGui::GetMainViewport()->Size;
-    const ImVec2 size{std::min(ui.theme.px(760.0f), 0.94f * room.x), std::min(ui.theme.px(560.0f), 0.94f * room.y)};
-    ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
-    ImGui::SetNextWindowSize(size, ImGuiCond_Appearing);
-    if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoScrollbar))
-        return;
-
-    const std::vector<UnknownCode> unknown = unknown_code(foreign_->scene, document_.trust());
-    std::string nodes;
-    for (std::size_t i = 0; i < std::min<std::size_t>(unknown.size(), 8); ++i)
-        nodes += fmt::format("{}{}", i > 0 ? ", " : "", display_name(*unknown[i].node));
-    if (unknown.size() > 8) nodes += fmt::format(" and {} more", unknown.size() - 8);
-    ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextUnformatted(
-        fmt::format("{} holds GLSL code that was not written here: {}. It was checked, but to run it "
-                    "your graphics driver has to compile it. Run it if you trust where it comes from.",
-                    foreign_->file.filename().string(), nodes)
-            .c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::Dummy({0.0f, ui.theme.px(4.0f)});
-    ImGui::PushStyleColor(ImGuiCol_ChildBg, ImGui::GetColorU32(ImGuiCol_FrameBg));
-    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.theme.px(10.0f), ui.theme.px(8.0f)});
-    ImGui::BeginChild("code", {0.0f, -ImGui::GetFrameHeightWithSpacing() - ui.theme.px(12.0f)}, false,
-                      ImGuiWindowFlags_HorizontalScrollbar | ImGuiWindowFlags_AlwaysUseWindowPadding);
-    std::unordered_set<std::string_view> shown;
-    for (const UnknownCode& code : unknown) {
-        if (!shown.insert(code.node->code->text()).second) continue;
-        ImGui::TextDisabled("%s", code.path.c_str());
-        ImGui::PushFont(ui.theme.mono);
-        ImGui::TextUnformatted(code.node->code->text().c_str());
-        ImGui::PopFont();
-        ImGui::Dummy({0.0f, ui.theme.px(8.0f)});
-    }
-    ImGui::EndChild();
-    ImGui::PopStyleVar();
-    ImGui::PopStyleColor();
-    ImGui::Dummy({0.0f, ui.theme.px(2.0f)});
-
-    const ImVec2 button{ui.theme.px(140.0f), 0.0f};
-    const bool run = ImGui::Button("Run the code", button);
-    ui.report.item("foreign", "run");
-    ImGui::SameLine();
-    const bool without = ImGui::Button("Open without it", button);
-    ui.report.item("foreign", "without");
-    tooltip(ui, "Its nodes stay in the scene and show nothing", "Each can be run later");
-    ImGui::SameLine();
-    const bool cancel = ImGui::Button("Cancel", button) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
-    ui.report.item("foreign", "cancel");
-    if (run)
-        for (const UnknownCode& code : unknown) document_.accept(*code.node->code);
-    if (run || without) document_.open(std::move(foreign_->scene), foreign_->file);
-    if (run || without || cancel) {
-        foreign_.reset();
-        ImGui::CloseCurrentPopup();
-    }
-    ImGui::EndPopup();
-}
-
-void FileActions::ask_about_unsaved(Ui& ui) {
-    const char* title = "Unsaved changes";
-    if (std::exchange(ask_, false)) ImGui::OpenPopup(title);
-    ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Appearing, {0.5f, 0.5f});
-    if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoSavedSettings))
-        return;
-    ImGui::Text("%s has changes that are not saved.", document_.name().c_str());
-    ImGui::Dummy({0.0f, ui.theme.px(6.0f)});
-    const ImVec2 size{ui.theme.px(110.0f), 0.0f};
-    Action then;
-    const bool save_first = ImGui::Button("Save", size);
-    ui.report.item("unsaved", "save");
-    ImGui::SameLine();
-    const bool discard = ImGui::Button("Discard", size);
-    ui.report.item("unsaved", "discard");
-    ImGui::SameLine();
-    const bool cancel = ImGui::Button("Cancel", size) || ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape));
-    ui.report.item("unsaved", "cancel");
-    if (save_first || discard || cancel) {
-        then = std::exchange(waiting_, nullptr);
-        ImGui::CloseCurrentPopup();
-    }
-    ImGui::EndPopup();
-    if (discard) {
-        then();
-    } else if (save_first && document_.file().empty()) {
-        save_as();
-        after_save_ = std::move(then);
-    } else if (save_first && write(document_.file())) {
-        then();
+void FileActions::menu(Ui& ui, CommandId command) {
+    if (command == CommandId::create) {
+        const bool open = ImGui::BeginMenu("New from template");
+        ui.report.item("menu/File", "template");
+        if (!open) return;
+        for (const SceneTemplate& entry : scene_templates()) {
+            if (ImGui::MenuItem(entry.label))
+                unless_unsaved([this, &entry] {
+                    document_.reset(entry.make());
+                    settle({}, "");
+                });
+            ui.report.item("menu/template", entry.key);
+            tooltip(ui, entry.tip);
+        }
+        ImGui::EndMenu();
+    } else if (command == CommandId::open) {
+        const bool open = ImGui::BeginMenu("Open recent", !state_.recent.empty());
+        ui.report.item("menu/File", "recent");
+        if (!open) return;
+        std::optional<fs::path> chosen;
+        for (const fs::path& file : state_.recent) {
+            if (ImGui::MenuItem(fmt::format("{}##{}", file.filename().string(), file.string()).c_str())) chosen = file;
+            ui.report.item("menu/recent", file.filename().string());
+            tooltip(ui, file.string());
+        }
+        ImGui::EndMenu();
+        if (chosen) this->open(*chosen);
     }
 }
 

@@ -63,7 +63,8 @@ float message_bar(Ui& ui, ImVec2 low, float width, const std::string& message, b
     return height;
 }
 
-void status_line(const Ui& ui, ImVec2 low, ImVec2 size, const Document& document, const RenderedPicture& picture) {
+void status_line(const Ui& ui, ImVec2 low, ImVec2 size, const Document& document, const RenderedPicture& picture,
+                 const std::string& notice) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     ImFont* font = ui.theme.small_font;
     draw.AddRectFilled(low, {low.x + size.x, low.y + size.y}, ImGui::GetColorU32(ImGuiCol_MenuBarBg));
@@ -74,11 +75,12 @@ void status_line(const Ui& ui, ImVec2 low, ImVec2 size, const Document& document
                                     picture.statistics.samples == 1 ? "sample" : "samples");
     const float width = font->CalcTextSizeA(font->FontSize, 1e6f, 0.0f, right.c_str()).x;
     const std::vector<std::string> steps = document.history().steps();
-    const std::string left = steps.empty()
+    const std::string left = !notice.empty() ? notice
+                             : steps.empty()
                                  ? "Click: select    Drag: orbit    Shift + drag: pan    Wheel: zoom    F1: all keys"
                                  : "Last step: " + steps.back();
     draw.PushClipRect(low, {low.x + size.x - width - 2.0f * pad, low.y + size.y}, true);
-    draw.AddText(font, font->FontSize, {low.x + pad, y}, ui.theme.dim, left.c_str());
+    draw.AddText(font, font->FontSize, {low.x + pad, y}, notice.empty() ? ui.theme.dim : ui.theme.text, left.c_str());
     draw.PopClipRect();
     draw.AddText(font, font->FontSize, {low.x + size.x - width - pad, y}, ui.theme.dim, right.c_str());
 }
@@ -89,9 +91,10 @@ float within(float wanted, float least, float most) {
     return std::floor(std::max(1.0f, std::min(std::max(wanted, least), most)));
 }
 
-/// A splitter of a panel that is `now` wide or high; what the user makes of it is kept in `chosen`.
+/// A splitter of a panel that is `now` wide or high; what the user makes of it is kept in `chosen`, at 96 dpi.
 void split(Ui& ui, const char* id, ImVec2 low, ImVec2 extent, float now, float sign, float& chosen) {
-    if (const float moved = splitter(ui, id, low, extent); moved != 0.0f) chosen = now + sign * moved;
+    if (const float moved = splitter(ui, id, low, extent); moved != 0.0f)
+        chosen = (now + sign * moved) / ui.theme.scale;
 }
 
 void append(std::vector<Edits>& to, Edits from) {
@@ -100,23 +103,15 @@ void append(std::vector<Edits>& to, Edits from) {
 
 }  // namespace
 
-Layout::Layout(const Theme& theme)
-    : left_(theme.px(250.0f)),
-      right_(theme.px(336.0f)),
-      objects_(theme.px(238.0f)),
-      settings_(theme.px(274.0f)),
-      code_width_(theme.px(660.0f)),
-      code_height_(theme.px(330.0f)) {}
-
 void Layout::draw_panels(Ui& ui, ImVec2 low, ImVec2 size, const Document& document, const ViewportInput& input,
                          const RenderedPicture& picture, const std::string& message, LayoutResult& result) {
     const Scene& scene = document.scene();
     const float bar = ui.theme.px(5.0f), least = ui.theme.px(110.0f);
     const float columns = size.x - 2.0f * bar, rows = size.y - bar;
-    const float left = within(left_, ui.theme.px(190.0f), columns * 0.36f);
-    const float right = within(right_, ui.theme.px(290.0f), columns * 0.42f);
-    const float objects = within(objects_, least, std::max(rows - least, rows * 0.5f));
-    const float settings = within(settings_, least, std::max(rows - least, rows * 0.5f));
+    const float left = within(ui.theme.px(sizes_.left), ui.theme.px(190.0f), columns * 0.36f);
+    const float right = within(ui.theme.px(sizes_.right), ui.theme.px(290.0f), columns * 0.42f);
+    const float objects = within(ui.theme.px(sizes_.objects), least, std::max(rows - least, rows * 0.5f));
+    const float settings = within(ui.theme.px(sizes_.settings), least, std::max(rows - least, rows * 0.5f));
     const float right_x = low.x + size.x - right;
     const float tree_height = rows - objects, inspector_height = rows - settings;
 
@@ -130,10 +125,10 @@ void Layout::draw_panels(Ui& ui, ImVec2 low, ImVec2 size, const Document& docume
     panel("settings", {right_x, low.y + inspector_height + bar}, {right, settings},
           [&] { append(result.edits, settings_panel(ui, scene, picture.statistics)); });
 
-    split(ui, "left", {low.x + left, low.y}, {bar, size.y}, left, 1.0f, left_);
-    split(ui, "right", {right_x - bar, low.y}, {bar, size.y}, right, -1.0f, right_);
-    split(ui, "objects", {low.x, low.y + tree_height}, {left, bar}, objects, -1.0f, objects_);
-    split(ui, "settings", {right_x, low.y + inspector_height}, {right, bar}, settings, -1.0f, settings_);
+    split(ui, "left", {low.x + left, low.y}, {bar, size.y}, left, 1.0f, sizes_.left);
+    split(ui, "right", {right_x - bar, low.y}, {bar, size.y}, right, -1.0f, sizes_.right);
+    split(ui, "objects", {low.x, low.y + tree_height}, {left, bar}, objects, -1.0f, sizes_.objects);
+    split(ui, "settings", {right_x, low.y + inspector_height}, {right, bar}, settings, -1.0f, sizes_.settings);
 }
 
 void Layout::draw_middle(Ui& ui, ImVec2 low, ImVec2 size, const Document& document, const ViewportInput& input,
@@ -144,15 +139,16 @@ void Layout::draw_middle(Ui& ui, ImVec2 low, ImVec2 size, const Document& docume
         const float bar = ui.theme.px(5.0f), least = ui.theme.px(120.0f);
         const auto draw = [&] { append(result.edits, code_.draw(ui, document.scene(), document.revision())); };
         if (size.x >= ui.theme.px(1100.0f)) {
-            const float width = within(code_width_, least, size.x - bar - least);
+            const float width = within(ui.theme.px(sizes_.code_width), least, size.x - bar - least);
             room.x = size.x - width - bar;
             panel("code", {low.x + room.x + bar, low.y}, {width, size.y}, draw);
-            split(ui, "code", {low.x + room.x, low.y}, {bar, size.y}, width, -1.0f, code_width_);
+            split(ui, "code", {low.x + room.x, low.y}, {bar, size.y}, width, -1.0f, sizes_.code_width);
         } else {
-            const float height = within(code_height_, least, std::max(size.y - bar - least, size.y * 0.5f));
+            const float height =
+                within(ui.theme.px(sizes_.code_height), least, std::max(size.y - bar - least, size.y * 0.5f));
             room.y = size.y - height - bar;
             panel("code", {low.x, low.y + room.y + bar}, {size.x, height}, draw);
-            split(ui, "code", {low.x, low.y + room.y}, {size.x, bar}, height, -1.0f, code_height_);
+            split(ui, "code", {low.x, low.y + room.y}, {size.x, bar}, height, -1.0f, sizes_.code_height);
         }
     }
     // A message about the document can be put away; one about the picture stays as long as it is true.
@@ -163,7 +159,7 @@ void Layout::draw_middle(Ui& ui, ImVec2 low, ImVec2 size, const Document& docume
 }
 
 LayoutResult Layout::draw(Ui& ui, ImVec2 size, const Document& document, const ViewportInput& input,
-                          const RenderedPicture& picture, const std::string& message, const MeasureResults& measured,
+                          const RenderedPicture& picture, FileActions& files, const MeasureResults& measured,
                           const std::function<bool(CommandId)>& enabled) {
     LayoutResult result;
     ImGui::SetNextWindowPos({0.0f, 0.0f});
@@ -176,13 +172,14 @@ LayoutResult Layout::draw(Ui& ui, ImVec2 size, const Document& document, const V
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_MenuBar | ImGuiWindowFlags_NoScrollWithMouse);
     ImGui::PopStyleVar(3);
     if (ImGui::BeginMenuBar()) {
-        result.command = command_menus(ui, enabled);
+        result.command = command_menus(ui, enabled, [&](CommandId id) { files.menu(ui, id); });
         ImGui::EndMenuBar();
     }
     const ImVec2 low{0.0f, ImGui::GetFrameHeight()};
     const float status = ui.theme.px(22.0f);
-    draw_panels(ui, low, {size.x, std::max(size.y - low.y - status, 1.0f)}, document, input, picture, message, result);
-    status_line(ui, {0.0f, size.y - status}, {size.x, status}, document, picture);
+    draw_panels(ui, low, {size.x, std::max(size.y - low.y - status, 1.0f)}, document, input, picture, files.error(),
+                result);
+    status_line(ui, {0.0f, size.y - status}, {size.x, status}, document, picture, files.notice());
     ImGui::End();
     append(result.edits, measure_panel(ui, document.scene(), measured, result.measure));
     result.step = history_panel(ui, document.history());

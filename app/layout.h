@@ -3,6 +3,7 @@
 
 #include "app/editor_commands.h"
 #include "app/document.h"
+#include "app/file_actions.h"
 #include "app/viewport.h"
 #include "ui/code_panel.h"
 #include "ui/measure_panel.h"
@@ -23,18 +24,19 @@ struct LayoutResult {
 
 class Layout {
 public:
-    explicit Layout(const Theme& theme);
+    explicit Layout(const PanelSizes& sizes) : sizes_(sizes) {}
 
-    /// Draws the whole window of `size`. `message`: something that went wrong, empty for nothing.
+    /// Draws the whole window of `size`; `files` draws its part of the menu and tells what went wrong.
     LayoutResult draw(Ui& ui, ImVec2 size, const Document& document, const ViewportInput& input,
-                      const RenderedPicture& picture, const std::string& message, const MeasureResults& measured,
+                      const RenderedPicture& picture, FileActions& files, const MeasureResults& measured,
                       const std::function<bool(CommandId)>& enabled);
 
     const CodePanel& code() const { return code_; }
+    const PanelSizes& sizes() const { return sizes_; }
     /// Whether there is something new to draw that no input asked for.
     bool news() const { return viewport_.news(); }
-    /// Another document is shown: what was typed and not handed in belongs to the old one.
-    void forget() { code_.forget(); }
+    /// Another document is shown: what was typed and not handed in belongs to the old one. `drafts` belong to this one.
+    void show_new_document(const CodeDrafts& drafts) { code_.begin(drafts); }
 
 private:
     void draw_panels(Ui& ui, ImVec2 low, ImVec2 size, const Document& document, const ViewportInput& input,
@@ -45,10 +47,7 @@ private:
 
     CodePanel code_;
     Viewport viewport_;
-    // What the user chose; a small window may have no room for it.
-    float left_, right_;        ///< widths of the columns
-    float objects_, settings_;  ///< heights of their lower panels
-    float code_width_, code_height_;
+    PanelSizes sizes_;
 };
 
 }  // namespace farfield

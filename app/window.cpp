@@ -1,5 +1,7 @@
 #include "app/window.h"
 
+#include "ui/ui.h"
+
 #include <glad/gl.h>
 
 #include <GLFW/glfw3.h>
@@ -8,6 +10,7 @@
 #include <glm/common.hpp>
 #include <imgui.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace farfield {
@@ -39,6 +42,19 @@ glm::ivec2 fitted(glm::ivec2 size) {
     return room.x > 0 && room.y > 0 ? glm::min(size, room) : size;
 }
 
+/// Whether a good part of the title bar of such a window would be on a screen, so that it can be moved.
+bool on_screen(glm::ivec2 place, glm::ivec2 size) {
+    int count = 0;
+    GLFWmonitor** monitors = glfwGetMonitors(&count);
+    for (int i = 0; i < count; ++i) {
+        glm::ivec2 corner{0}, room{0};
+        glfwGetMonitorWorkarea(monitors[i], &corner.x, &corner.y, &room.x, &room.y);
+        const int width = std::min(place.x + size.x, corner.x + room.x) - std::max(place.x, corner.x);
+        if (width >= 200 && place.y >= corner.y && place.y <= corner.y + room.y - 50) return true;
+    }
+    return false;
+}
+
 /// An invisible window, for its context alone.
 class SharedContext final : public Context {
 public:
@@ -59,10 +75,12 @@ private:
 
 }  // namespace
 
-Window::Window(glm::ivec2 size, const std::string& title) : title_(title) {
+Window::Window(const Frame& frame, const std::string& title) : title_(title) {
     if (!glfwInit()) throw ContextError("no window can be opened: " + last_error());
-    size = fitted(size);
+    const glm::ivec2 size = fitted(frame.size);
+    frame_.size = size;
     set_hints(true);
+    glfwWindowHint(GLFW_MAXIMIZED, frame.maximised ? GLFW_TRUE : GLFW_FALSE);
     window_ = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
     if (!window_) {
         const std::string error = last_error();
@@ -70,6 +88,8 @@ Window::Window(glm::ivec2 size, const std::string& title) : title_(title) {
         throw ContextError("no window with OpenGL 4.3 can be opened: " + error);
     }
     glfwSetWindowSizeLimits(window_, 800, 500, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    if (frame.place && !frame.maximised && on_screen(*frame.place, size))
+        glfwSetWindowPos(window_, frame.place->x, frame.place->y);
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
     try {
@@ -143,6 +163,7 @@ void Window::begin_frame(bool hold_keys) {
     ImGui_ImplGlfw_NewFrame();
     keys_ = input_.queue.deliver(window_, hold_keys);
     ImGui::NewFrame();
+    forget_text_undo();
 }
 
 void Window::end_frame() {
@@ -173,6 +194,17 @@ glm::vec2 Window::pixels_per_unit() const {
     glfwGetFramebufferSize(window_, &pixels.x, &pixels.y);
     const glm::ivec2 units = size();
     return units.x > 0 && units.y > 0 ? glm::vec2(pixels) / glm::vec2(units) : glm::vec2(1.0f);
+}
+
+Window::Frame Window::frame() const {
+    frame_.maximised = glfwGetWindowAttrib(window_, GLFW_MAXIMIZED) == GLFW_TRUE;
+    if (!frame_.maximised && !glfwGetWindowAttrib(window_, GLFW_ICONIFIED)) {
+        frame_.size = size();
+        glm::ivec2 place{0};
+        glfwGetWindowPos(window_, &place.x, &place.y);
+        frame_.place = place;
+    }
+    return frame_;
 }
 
 float Window::density() const {

@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,14 @@ namespace farfield {
 
 class Window {
 public:
+    /// Where and how large; what does not lie on a screen is put there.
+    struct Frame {
+        glm::ivec2 size{1440, 900};  ///< when it is not maximised, screen coordinates
+        std::optional<glm::ivec2> place;
+        bool maximised = false;
+    };
     /// Throws ContextError when there is no display or no OpenGL 4.3.
-    Window(glm::ivec2 size, const std::string& title);
+    Window(const Frame& frame, const std::string& title);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
@@ -35,7 +42,8 @@ public:
     void set_title(const std::string& title);
     glm::ivec2 size() const;            ///< in screen coordinates, as the mouse has
     glm::vec2 pixels_per_unit() const;  ///< framebuffer pixels for each screen coordinate
-    float density() const;              ///< of the display: 1 at 96 dpi
+    Frame frame() const;
+    float density() const;  ///< of the display: 1 at 96 dpi
     bool should_close() const;
     void keep_open();  ///< answers a request to close with no
 
@@ -56,6 +64,7 @@ private:
     Input input_;
     std::vector<KeyPress> keys_;
     std::string title_;
+    mutable Frame frame_;  ///< the last one when it was not maximised
 };
 
 }  // namespace farfield

@@ -1,5 +1,6 @@
 #include "renderer/render_thread.h"
 
+#include "renderer/picture_file.h"
 #include "renderer/renderer.h"
 
 #include <algorithm>
@@ -7,9 +8,11 @@
 #include <cmath>
 #include <condition_variable>
 #include <exception>
+#include <future>
 #include <mutex>
 #include <optional>
 #include <thread>
+#include <vector>
 
 namespace farfield {
 namespace {
@@ -56,8 +59,11 @@ struct RenderThread::State {
     int held = -1;
     std::string error;  ///< of the latest request
     Statistics statistics;
+    std::vector<PictureWish> wishes;
+    std::vector<WrittenPicture> written;
 
     std::thread thread;
+    std::vector<std::future<void>> writing;  ///< of the thread; each is waited for at the end
 
     // The rest belongs to the thread.
     std::optional<Renderer> renderer;
@@ -83,6 +89,9 @@ struct RenderThread::State {
     void work();
     bool outdated();
     void show();
+    void write_pictures();
+    bool grants(const PictureWish& wish) const;
+    bool can_write();
     bool finished() const {
         return current.max_frames > 0 && renderer->statistics().frames >= current.max_frames && !quick();
     }
@@ -131,6 +140,22 @@ RenderedPicture RenderThread::acquire() {
     return picture;
 }
 
+void RenderThread::write(PictureWish wish) {
+    {
+        const std::lock_guard lock(state_->mutex);
+        state_->wishes.push_back(std::move(wish));
+    }
+    state_->wake.notify_one();
+}
+
+std::optional<WrittenPicture> RenderThread::written() {
+    const std::lock_guard lock(state_->mutex);
+    if (state_->written.empty()) return std::nullopt;
+    WrittenPicture first = std::move(state_->written.front());
+    state_->written.erase(state_->written.begin());
+    return first;
+}
+
 void RenderThread::State::run() {
     try {
         context->make_current();
@@ -153,7 +178,11 @@ void RenderThread::State::run() {
 bool RenderThread::State::wait_for_work() {
     std::unique_lock lock(mutex);
     const bool idle = !has_work() || (finished() && !unshown);
-    if (idle) wake.wait(lock, [&] { return stop || next; });
+    if (idle) {
+        const Clock::time_point start = Clock::now();
+        wake.wait(lock, [&] { return stop || next || can_write(); });
+        renderer->paused(Clock::now() - start);
+    }
     if (stop) return false;
     // A quick picture is finished and shown before a newer request counts: a hand that moves all the time must see
     // something.
@@ -248,6 +277,46 @@ bool RenderThread::State::compile_in_background() {
     return true;
 }
 
+/// Whether the picture is what the wish is for.
+bool RenderThread::State::grants(const PictureWish& wish) const {
+    return wish.room.x == 0 || wish.scene == current.scene;
+}
+
+/// With the mutex locked: whether a wish can be granted now.
+bool RenderThread::State::can_write() {
+    std::erase_if(wishes, [&](const PictureWish& w) { return w.scene && w.scene != asked_for; });
+    return has_work() && !quick() && options.size == current.size && renderer->displayable() &&
+           std::any_of(wishes.begin(), wishes.end(), [&](const PictureWish& w) { return grants(w); });
+}
+
+void RenderThread::State::write_pictures() {
+    std::vector<PictureWish> granted;
+    {
+        const std::lock_guard lock(mutex);
+        if (!can_write()) return;
+        const auto rest = std::partition(wishes.begin(), wishes.end(), [&](const PictureWish& w) { return grants(w); });
+        granted.assign(wishes.begin(), rest);
+        wishes.erase(wishes.begin(), rest);
+    }
+    std::erase_if(writing, [](const std::future<void>& f) {
+        return f.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    });
+    for (const PictureWish& wish : granted) {
+        Picture picture = wish.room.x > 0 ? read_small_picture(*renderer, wish.room)
+                                          : read_picture(*renderer, options.view, is_linear(wish.file));
+        writing.push_back(std::async(std::launch::async, [this, wish, picture = std::move(picture)] {
+            std::string problem;
+            try {
+                write_picture(picture, wish.file);
+            } catch (const std::exception& failure) {
+                problem = failure.what();
+            }
+            const std::lock_guard lock(mutex);
+            if (wish.room.x == 0) written.push_back({wish.file, problem});
+        }));
+    }
+}
+
 void RenderThread::State::work() {
     if (!has_work()) return;
     if (!finished()) {
@@ -266,6 +335,7 @@ void RenderThread::State::work() {
             unshown = true;
         }
     }
+    write_pictures();
     const bool late = renderer->statistics().samples != shown_samples &&
                       Clock::now() - shown_time > std::max<Clock::duration>(longest_wait, 3 * show_time);
     if (!renderer->displayable() || !(unshown || late)) return;

@@ -10,7 +10,9 @@
 
 #include <glm/vec2.hpp>
 
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace farfield {
@@ -22,6 +24,18 @@ struct RenderRequest {
     Id tuned = 0;              ///< the node whose parameters are likely to be moved next: the selected one
     bool interacting = false;  ///< a hand is moving something: quick pictures, smaller if they must be
     int max_frames = 0;        ///< stop after so many accumulated frames; 0: go on for ever
+};
+
+/// The picture as a file, in full size, as soon as there is one.
+struct PictureWish {
+    std::filesystem::path file;  ///< as of write_picture
+    /// Not zero: a small picture within so many pixels, of `scene` alone.
+    glm::ivec2 room{0};
+    std::shared_ptr<const Scene> scene = nullptr;
+};
+struct WrittenPicture {
+    std::filesystem::path file;
+    std::string error;  ///< empty: it was written
 };
 
 struct RenderedPicture {
@@ -45,6 +59,11 @@ public:
     /// call of acquire. Call with the sharing context current: the call makes that context wait for the picture's
     /// fence.
     RenderedPicture acquire();
+
+    /// Never waits. A small picture is dropped when another scene comes before it.
+    void write(PictureWish wish);
+    /// What has become of the wishes, in turn. Nothing is said of small pictures.
+    std::optional<WrittenPicture> written();
 
 private:
     struct State;

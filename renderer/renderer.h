@@ -61,6 +61,9 @@ public:
     /// Drops all accumulated samples; the next frame is the first again.
     void discard();
 
+    /// Nothing was done for so long: that is no time of the current frame.
+    void paused(std::chrono::steady_clock::duration time) { frame_start_ += time; }
+
     /// One bounded piece of the current frame. True when that finished the frame.
     bool step();
     /// Whether there is something to show: the whole picture has direct light and a sample of far light.

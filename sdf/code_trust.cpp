@@ -1,5 +1,6 @@
 #include "sdf/code_trust.h"
 
+#include "sdf/bundled_scenes.h"
 #include "sdf/scene_file.h"
 #include "sdf/user_folder.h"
 
@@ -12,8 +13,6 @@
 #include <unistd.h>
 
 namespace farfield {
-
-std::string_view embedded_scenes(std::string_view name);  // generated from the bundled scenes by embed.cmake
 
 namespace {
 

@@ -13,12 +13,22 @@ std::vector<Id> History::apply(std::span<const Edit> edits, unsigned gesture) {
     std::vector<Id> ids = apply_all(changed, edits);
     const bool continues = gesture != 0 && current_ > 0 && steps_[current_].gesture == gesture;
     std::string description = continues ? std::move(steps_[current_].description) : describe(scene_, edits);
-    Step step{PackedScene(changed, steps_[current_].scene), std::move(description), gesture, next_revision_++};
-    if (!continues) ++current_;
+    if (continues) --current_;
+    add(std::move(changed), std::move(description), gesture);
+    return ids;
+}
+
+void History::record(Scene scene, std::string description) {
+    scene.next_id = std::max(scene.next_id, scene_.next_id);
+    add(std::move(scene), std::move(description), 0);
+}
+
+void History::add(Scene scene, std::string description, unsigned gesture) {
+    Step step{PackedScene(scene, steps_[current_].scene), std::move(description), gesture, next_revision_++};
+    ++current_;
     steps_.erase(steps_.begin() + static_cast<std::ptrdiff_t>(current_), steps_.end());
     steps_.push_back(std::move(step));
-    scene_ = std::move(changed);
-    return ids;
+    scene_ = std::move(scene);
 }
 
 Id History::apply(const Edit& edit, unsigned gesture) { return apply(std::span(&edit, 1), gesture).front(); }

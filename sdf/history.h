@@ -19,6 +19,8 @@ public:
     /// Takes the step of this gesture back and forgets it, if it is the latest.
     void cancel(unsigned gesture);
     void replace(Scene scene);  ///< a new document: forgets all steps
+    /// A step that was made elsewhere.
+    void record(Scene scene, std::string description);
     bool can_undo() const { return current_ > 0; }
     bool can_redo() const { return current_ + 1 < steps_.size(); }
     void undo();
@@ -36,6 +38,8 @@ public:
     std::uint64_t revision() const { return steps_[current_].revision; }
 
 private:
+    /// Makes `scene` the latest step, in place of all that could be redone.
+    void add(Scene scene, std::string description, unsigned gesture);
     struct Step {
         PackedScene scene;
         std::string description;

@@ -24,6 +24,8 @@ struct SceneFileError : std::runtime_error {
 /// Reads a scene from text; `file` is used in messages only. Nothing is half loaded: a scene or an error.
 Scene parse_scene(std::string_view text, const std::string& file);
 Scene load_scene(const std::filesystem::path& file);
+/// The file as it is; refuses what is too large for a scene, unread.
+std::string read_scene_text(const std::filesystem::path& file);
 
 /// The text of a scene file. parse_scene(to_text(s)) describes s, and writing that again gives the same bytes.
 std::string to_text(const Scene& scene);

@@ -40,11 +40,14 @@ class Display:
             raise Failure("Xvfb does not start")
         self.environment = dict(os.environ, DISPLAY=":" + number, LC_ALL="C.UTF-8")
         self.environment.pop("WAYLAND_DISPLAY", None)
+        self.state = tempfile.TemporaryDirectory(prefix="farfield-state-")  # what an editor remembers from another test
+        self.environment["XDG_STATE_HOME"] = self.state.name
         return self
 
     def __exit__(self, *_):
         self.process.terminate()
         self.process.wait()
+        self.state.cleanup()
 
     def xdotool(self, *arguments):
         return subprocess.run(["xdotool", *map(str, arguments)], env=self.environment, check=True,
@@ -66,7 +69,8 @@ class Editor:
     def __init__(self, display, program, scene, report):
         self.display, self.report_file = display, report
         self.seen = []  # every sample count that was reported, in order, until it is cleared
-        self.process = subprocess.Popen([program, str(scene), "--report", str(report)], env=display.environment)
+        files = [str(scene)] if scene else []
+        self.process = subprocess.Popen([program, *files, "--report", str(report)], env=display.environment)
 
     def __enter__(self):
         return self

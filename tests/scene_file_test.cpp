@@ -8,13 +8,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <functional>
 #include <limits>
 #include <map>
+#include <thread>
 
+#include <sched.h>
 #include <signal.h>
+#include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace farfield {
@@ -284,32 +289,65 @@ TEST(SceneFileOnDisk, TheOldFileSurvivesFailures) {
     EXPECT_NE(save_problem(broken, file), "");
     EXPECT_EQ(read_text(file), "old");
 
-    EXPECT_EQ(save_problem(Scene(), folder / ""), "is not a regular file, expected a scene file");
+    EXPECT_EQ(save_problem(Scene(), folder / ""), "is not a regular file, expected a file to replace");
     EXPECT_EQ(save_problem(Scene(), folder / "no/such/folder.json"), "cannot be written: No such file or directory");
     EXPECT_EQ(save_problem(Scene(), file / "inside.json"), "cannot be written: Not a directory");
     EXPECT_EQ(entries(folder / ""), 1u);
 }
 
 TEST(SceneFileOnDisk, ReadOnlyFolderAndFile) {
-    if (::geteuid() == 0) {
-        // Root may write anywhere but in the kernel's own folders.
-        EXPECT_NE(save_problem(Scene(), "/proc/farfield.json"), "");
-        return;
-    }
+    // In a child that is not root: root may write anywhere.
     TemporaryFolder folder;
     const fs::path file = folder / "a.json";
     write_text(file, "old");
-    fs::permissions(folder / "", fs::perms::owner_read | fs::perms::owner_exec);
-    EXPECT_EQ(save_problem(Scene(), file), "cannot be written: Permission denied");
+    fs::permissions(folder / "", fs::perms(0555));
+    const auto problem_is = [&](const char* expected) {
+        if (::geteuid() == 0 && ::setuid(65534) != 0) ::_exit(2);
+        ::_exit(save_problem(Scene(), file) == expected ? 0 : 1);
+    };
+    EXPECT_EXIT(problem_is("cannot be written: Permission denied"), testing::ExitedWithCode(0), "");
+    fs::permissions(file, fs::perms(0666));
+    EXPECT_EXIT(problem_is("its folder cannot be written to: Permission denied"), testing::ExitedWithCode(0), "");
     fs::permissions(folder / "", fs::perms::owner_all);
-    fs::permissions(file, fs::perms::owner_read);
-    EXPECT_EQ(save_problem(Scene(), file), "cannot be written: Permission denied");
     EXPECT_EQ(read_text(file), "old");
     EXPECT_EQ(entries(folder / ""), 1u);
 }
 
+/// Runs `test` in a child with a disk of `size` at `folder`; its status, or 77 where the system lets us mount nothing.
+int on_small_disk(const fs::path& folder, const char* size, const std::function<bool()>& test) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        const bool mounted = (::unshare(CLONE_NEWNS) == 0 || ::unshare(CLONE_NEWUSER | CLONE_NEWNS) == 0) &&
+                             ::mount("none", "/", nullptr, MS_REC | MS_PRIVATE, nullptr) == 0 &&
+                             ::mount("none", folder.c_str(), "tmpfs", 0, size) == 0;
+        ::_exit(!mounted ? 77 : test() ? 0 : 1);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
 TEST(SceneFileOnDisk, AFullDiskLeavesTheOldFile) {
-    // A limit on file size makes writing fail in the middle, as a full disk does. In a child, as the limit stays.
+    TemporaryFolder folder;
+    const fs::path file = folder / "a.json";
+    const int status = on_small_disk(folder / "", "size=64k", [&] {
+        save_scene(random_scene(1), file);
+        const std::string old = to_text(random_scene(1));
+        // Nothing left: a file fills the disk.
+        std::ofstream(folder / "filler") << std::string(100'000, 'x');
+        const std::string problem = save_problem(random_scene(2, 100), file);
+        const bool whole = read_text(file) == old && entries(folder / "") == 2;
+        fs::remove(folder / "filler");
+        save_scene(random_scene(2), file);
+        return problem == "cannot be written: No space left on device" && whole &&
+               read_text(file) == to_text(random_scene(2));
+    });
+    if (status == 77) GTEST_SKIP() << "nothing can be mounted here";
+    EXPECT_EQ(status, 0);
+}
+
+TEST(SceneFileOnDisk, AFileTooLargeForTheSystemLeavesTheOldFile) {
+    // Writing fails in the middle. In a child, as the limit stays.
     TemporaryFolder folder;
     const fs::path file = folder / "a.json";
     write_text(file, "old");
@@ -323,6 +361,30 @@ TEST(SceneFileOnDisk, AFullDiskLeavesTheOldFile) {
         },
         testing::ExitedWithCode(0), "");
     EXPECT_EQ(read_text(file), "old");
+    EXPECT_EQ(entries(folder / ""), 1u);
+}
+
+TEST(SceneFileOnDisk, WhatAKilledProgramLeftIsUsedAgain) {
+    TemporaryFolder folder;
+    const fs::path file = folder / "a.json";
+    write_text(folder / ".farfield-0.tmp", std::string(100'000, 'x'));
+    save_scene(Scene(), file);
+    EXPECT_EQ(read_text(file), to_text(Scene()));
+    EXPECT_EQ(entries(folder / ""), 1u);
+}
+
+TEST(SceneFileOnDisk, SavingAtOnceLeavesOneOfTheScenes) {
+    TemporaryFolder folder;
+    const fs::path file = folder / "a.json";
+    std::vector<std::thread> threads;
+    for (unsigned seed = 0; seed < 4; ++seed)
+        threads.emplace_back([&, scene = random_scene(seed)] {
+            for (int i = 0; i < 20; ++i) save_scene(scene, file);
+        });
+    for (std::thread& thread : threads) thread.join();
+    const std::string text = read_text(file);
+    EXPECT_TRUE(text == to_text(random_scene(0)) || text == to_text(random_scene(1)) ||
+                text == to_text(random_scene(2)) || text == to_text(random_scene(3)));
     EXPECT_EQ(entries(folder / ""), 1u);
 }
 

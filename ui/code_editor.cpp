@@ -42,6 +42,20 @@ CodeEditor::Draft& CodeEditor::draft_of(const Node& node) {
     return draft;
 }
 
+CodeDrafts CodeEditor::drafts(const Scene& scene) const {
+    CodeDrafts changed;
+    for (const auto& [id, draft] : drafts_) {
+        const Node* node = find_node(scene, id);
+        if (node && node->code && node->code->text() != draft.text) changed[id] = draft.text;
+    }
+    return changed;
+}
+
+void CodeEditor::begin(const CodeDrafts& drafts) {
+    drafts_.clear();
+    for (const auto& [id, text] : drafts) drafts_[id].text = text;
+}
+
 bool CodeEditor::is_changed(const Node& node) const {
     const auto found = drafts_.find(node.id);
     return found != drafts_.end() && found->second.text != node.code->text();

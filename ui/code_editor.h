@@ -3,6 +3,7 @@
 // shown.
 #pragma once
 
+#include "sdf/code_drafts.h"
 #include "sdf/custom_code.h"
 #include "ui/ui.h"
 
@@ -20,7 +21,10 @@ public:
     /// Whether something was typed that is not handed in, and whether it could be.
     bool is_changed(const Node& node) const;
     bool has_errors(const Node& node) const;
-    void forget() { drafts_.clear(); }
+    /// Of the nodes of `scene`, what was typed and not handed in.
+    CodeDrafts drafts(const Scene& scene) const;
+    /// Another document is shown, of which there are these.
+    void begin(const CodeDrafts& drafts);
 
 private:
     struct Draft {

@@ -23,8 +23,10 @@ public:
     };
     Lines lines() const;
     Tier tier() const { return tier_; }
-    /// Another document: what was typed for the old one is gone.
-    void forget() { editor_.forget(); }
+    /// Another document: what was typed for the old one is gone, but of this one there are `drafts`.
+    void begin(const CodeDrafts& drafts) { editor_.begin(drafts); }
+    /// What was typed and not handed in.
+    CodeDrafts drafts(const Scene& scene) const { return editor_.drafts(scene); }
 
 private:
     enum class Mark : unsigned char { none, inside, selected };

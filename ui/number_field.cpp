@@ -187,7 +187,9 @@ bool number_field(Ui& ui, const char* label, const Parameter& parameter, float& 
             entry.click_due = ImGui::GetTime() + io.MouseDoubleClickTime;
         }
     }
-    if (changed) ImGui::MarkItemEdited(id);
+    // A click may count only once the mouse is down on something else.
+    if (const ImGuiID holder = ImGui::GetActiveID(); changed && (holder == id || holder == 0))
+        ImGui::MarkItemEdited(id);
 
     ImGui::RenderFrame(box.Min, box.Max,
                        ImGui::GetColorU32(active    ? ImGuiCol_FrameBgActive

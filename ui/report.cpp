@@ -35,6 +35,7 @@ void Report::write(const ReportState& state, double now) {
     json["saved"] = state.saved;
     json["file"] = state.file;
     json["error"] = state.error;
+    json["notice"] = state.notice;
     json["selection"] = state.selection;
     json["selected"] = state.selected;
     json["step"] = state.step;

@@ -20,8 +20,9 @@ struct ReportState {
     std::uint64_t revision = 0;  ///< of the document
     std::uint64_t pictures = 0;  ///< shown so far
     bool saved = true;
-    std::string file;   ///< of the document, empty before the first save
-    std::string error;  ///< what the error bar shows
+    std::string file;    ///< of the document, empty before the first save
+    std::string error;   ///< what the error bar shows
+    std::string notice;  ///< what the status line says of files
     std::string selection;
     std::vector<std::string> selected;  ///< all nodes, the primary one last
     std::size_t step = 0;               ///< of the history

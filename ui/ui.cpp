@@ -1,5 +1,7 @@
 #include "ui/ui.h"
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -16,6 +18,20 @@ bool exists(const Scene& scene, ObjectRef object) {
         default:
             return true;
     }
+}
+
+void forget_text_undo() {
+#if IMGUI_VERSION_NUM < 18800
+    // Dear ImGui hands a field its old steps when it is entered again, whatever text it has by then, and ends the
+    // program when they do not fit.
+    ImGuiContext& g = *ImGui::GetCurrentContext();
+    if (g.ActiveId == g.InputTextState.ID) return;
+    auto& undo = g.InputTextState.Stb.undostate;
+    undo.undo_point = 0;
+    undo.undo_char_point = 0;
+    undo.redo_point = STB_TEXTEDIT_UNDOSTATECOUNT;
+    undo.redo_char_point = STB_TEXTEDIT_UNDOCHARCOUNT;
+#endif
 }
 
 bool is_stopped(const Ui& ui, const Node& node) { return node.code && ui.trust && !ui.trust->knows(*node.code); }

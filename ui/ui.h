@@ -81,6 +81,9 @@ struct Ui {
 /// Whether there is nothing to be seen of the node because its code comes from elsewhere.
 bool is_stopped(const Ui& ui, const Node& node);
 
+/// To be called at the start of each frame: a text field that is left forgets what Ctrl+Z would bring back there.
+void forget_text_undo();
+
 /// True while the selection names something that exists in the scene.
 bool exists(const Scene& scene, ObjectRef object);
 
