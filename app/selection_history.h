@@ -20,9 +20,11 @@ public:
     }
 
     /// What was selected when the history was last left for another `position`: before the step that was taken back
-    /// last, or after the one that was done again last.
+    /// last, or after the one that was done again last. Nothing where that step was not the user's, as a reload.
     Selection at(std::size_t from, std::size_t position) const {
-        return position < from ? steps_.at(position).before : steps_.at(position - 1).after;
+        const std::size_t step = position < from ? position : position - 1;
+        if (step >= steps_.size()) return {};
+        return position < from ? steps_[step].before : steps_[step].after;
     }
 
 private:

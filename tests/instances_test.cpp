@@ -236,14 +236,17 @@ TEST(Instances, LinesOfTheFunctionBelongToTheDefinition) {
             ++seen;
         };
         expect("float column_distance(", c.column);
+        expect("vec2 column_march(", c.column);
+        expect("capped_cylinder_along(p,", c.shaft);
         expect("capped_cylinder(p,", c.shaft);
         expect("torus(p,", c.ring);
         expect("column_distance(p - vec3(1.0", c.first);
-        expect("/ 0.5)", c.second);
+        expect("column_march(p - vec3(1.0", c.first);
+        expect("/ 0.5", c.second);
         start = end + 1;
         ++line;
     }
-    EXPECT_EQ(seen, 1u + 2u + 2u + 1u + 1u);
+    EXPECT_EQ(seen, 2u + 1u + 2u + 3u + 2u + 3u);
 }
 
 TEST(Instances, TunedNodesMoveTheBlockAloneThroughTheirInstances) {
