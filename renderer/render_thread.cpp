@@ -74,7 +74,7 @@ struct RenderThread::State {
     std::optional<Clock::time_point> unseen_edit;  ///< its scene has not been shown yet
     std::uint64_t serial = 0;
     double milliseconds_per_pixel_sample = 0.0;  ///< measured on the last frame; 0: not yet
-    bool unshown = false;                        ///< another view, other settings or a finished frame
+    bool unshown = false;                        ///< another view, other settings or a frame worth showing
     bool dropped = false;                        ///< the last picture was outdated before it was filtered
     int shown_samples = 0;
     bool preview = false;   ///< the first picture after an edit, quick and small
@@ -332,7 +332,9 @@ void RenderThread::State::work() {
                 statistics.frames_per_second > 0.0 ? 0.8 * statistics.frames_per_second + 0.2 * rate : rate;
             statistics = s;
             statistics.frames_per_second = smoothed;
-            unshown = true;
+            // The first pictures and the last; of those between as many as come in time, because filtering one takes
+            // longer than tracing a simple scene.
+            unshown = unshown || quick() || preview || s.frames <= 2 || finished();
         }
     }
     write_pictures();

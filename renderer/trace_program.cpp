@@ -65,7 +65,17 @@ std::string scene_kernel_source(const std::string& file, const GeneratedScene& g
         text += "float parameter(int i) { return parameter_block[i >> 2][i & 3]; }\n";
     }
     text += fmt::format("void load_parameters() {{\n{}}}\nconst bool flat_field = {};\n", load, generated.flat);
-    return text + fmt::format("#line 1 {}\n", generated_file) + generated.text + kernel.substr(own);
+    // Drivers spend a good part of their time on functions that nothing calls.
+    const std::string_view all = generated.text;
+    const auto from = [&](std::size_t begin, std::size_t length) {
+        const auto line = 1 + std::count(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(begin), '\n');
+        return fmt::format("#line {} {}\n{}", line, generated_file, all.substr(begin, length));
+    };
+    text += from(0, generated.surface_at);
+    if (kernel.find("scene_surface(") != std::string::npos)
+        text += from(generated.surface_at, generated.march_at - generated.surface_at);
+    if (kernel.find("scene_march(") != std::string::npos) text += from(generated.march_at, std::string::npos);
+    return text + kernel.substr(own);
 }
 
 // On a GPU rays are many and lanes need work at once. On llvmpipe 8 to 32 rays and pauses of 4 to 16 evaluations differ

@@ -12,6 +12,10 @@
 namespace farfield {
 namespace {
 
+/// Larger scenes, instances counted with what they show, are marched by their distance alone: the code is half as long.
+/// llvmpipe compiles 1,000 spheres in 1.2 s instead of 0.4 s, 4,000 in 8 s instead of 2.3 s.
+constexpr std::uint64_t largest_march = 1500;
+
 constexpr const char* live_helpers =
     "vec3 parameter3(int i) {\n"
     "    return vec3(parameter(i), parameter(i + 1), parameter(i + 2));\n"
@@ -42,12 +46,13 @@ constexpr const char* inherited_helper =
     "    return parameter(i) < 0.0 ? inherited : uint(parameter(i));\n"
     "}\n";
 
-CodeLines write(const FieldTree& tree, ParameterBlock& block, const CodeNames& names) {
+CodeLines write(const FieldTree& tree, ParameterBlock& block, const CodeNames& names, bool by_distance,
+                GeneratedScene& generated) {
     std::string called;
     const CodeLines custom = CodeWriter(tree, names, block, false).custom_functions(called);
     const CodeLines distance = CodeWriter(tree, names, block, false).write();
     const CodeLines material = CodeWriter(tree, names, block, true).write();
-    const CodeLines march = MarchWriter(tree, names, block).write();
+    const CodeLines march = MarchWriter(tree, names, block, by_distance).write();
 
     CodeLines all{names};
     std::string library = used_shapes(called + distance.key + material.key + march.key);
@@ -63,8 +68,10 @@ CodeLines write(const FieldTree& tree, ParameterBlock& block, const CodeNames& n
     all.append(custom);
     all.append(distance);
     all.add("");
+    generated.surface_at = all.text.size();
     all.append(material);
     all.add("");
+    generated.march_at = all.text.size();
     all.append(march);
     return all;
 }
@@ -76,7 +83,7 @@ GeneratedScene generate(const Scene& scene, Tier tier, Id tuned) {
     const FieldTree tree(scene);
     ParameterBlock block(tree, tier, tuned);
     const CodeNames names(tree);
-    CodeLines all = write(tree, block, names);
+    CodeLines all = write(tree, block, names, expanded_node_count(scene) > largest_march, generated);
     generated.text = std::move(all.text);
     generated.key = std::move(all.key);
     generated.parameters = std::move(block.values);

@@ -22,6 +22,9 @@ struct GeneratedScene {
     /// it) and `vec2 scene_march(vec3 p, vec3 v)` (see march_writer.h). With parameters it also needs
     /// `float parameter(int)`.
     std::string text;
+    /// Where in `text` the functions begin that are for scene_surface alone, and those for scene_march alone: a program
+    /// with one of the two needs no more of the rest than what stands before the first.
+    std::size_t surface_at = 0, march_at = 0;
     /// The code without comments. Equal keys mean equal programs: renaming a node changes the text alone, and in the
     /// live tier no parameter edit changes the key.
     std::string key;

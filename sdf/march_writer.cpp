@@ -24,8 +24,8 @@ bool adds(const KindInfo& kind) { return kind.when_zero && kind.gather == Gather
 
 }  // namespace
 
-MarchWriter::MarchWriter(const FieldTree& tree, const CodeNames& names, ParameterBlock& block)
-    : CodeWriter(tree, names, block, false) {
+MarchWriter::MarchWriter(const FieldTree& tree, const CodeNames& names, ParameterBlock& block, bool by_distance)
+    : CodeWriter(tree, names, block, false), by_distance_(by_distance) {
     writes_copies_ = false;
 }
 
@@ -86,6 +86,7 @@ float MarchWriter::level_of_children(const FieldNode& n, float level) const {
 }
 
 bool MarchWriter::gains(const FieldNode& n, float level) const {
+    if (by_distance_) return false;
     const KindInfo& kind = *n.kind;
     // A live number may change under the code: no level may depend on it.
     if (block_.is_live(n) && (level != 0.0f || kind.reach)) return false;

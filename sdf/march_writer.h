@@ -24,8 +24,9 @@ namespace farfield {
 
 class MarchWriter : private CodeWriter {
 public:
-    /// To be written after the functions of the distance, which it calls.
-    MarchWriter(const FieldTree& tree, const CodeNames& names, ParameterBlock& block);
+    /// To be written after the functions of the distance, which it calls. `by_distance`: nothing but the distance
+    /// counts.
+    MarchWriter(const FieldTree& tree, const CodeNames& names, ParameterBlock& block, bool by_distance);
 
     CodeLines write();
 
@@ -69,6 +70,7 @@ private:
 
     std::string direction(const FieldNode& n, const std::string& v);
 
+    bool by_distance_;
     std::vector<bool> definitions_gain_;
 };
 
