@@ -20,28 +20,6 @@ glm::vec3 random_point(std::mt19937& random, float half) {
     return {x, y, uniform(random, -half, half)};
 }
 
-/// Operations down to `depth` levels, primitives of the table below (custom code is any of them); often two children
-/// where the kind combines, else one.
-Node random_tree(int depth, std::mt19937& random) {
-    std::vector<NodeKind> kinds;
-    for (const KindInfo& kind : node_kinds())
-        if (kind.takes_children() == (depth > 1) && kind.role != Role::instance) kinds.push_back(kind.kind);
-    Node node = make_node(kinds[random() % kinds.size()]);
-    const KindInfo& kind = info(node.kind);
-    const std::vector<Parameter> list = parameters(node);
-    for (std::size_t i = 0; i < node.values.size(); ++i) node.values[i] = random_value(list[i], random);
-    node.transform.translate = random_point(random, 0.5f);
-    node.transform.rotate = random() % 3 ? random_point(random, 180.0f) : glm::vec3(0.0f);
-    node.transform.scale = random() % 3 ? 1.0f : uniform(random, 0.3f, 2.0f);
-    if (kind.takes_children()) {
-        const int below = depth - 1;
-        node.children.push_back(random_tree(below, random));
-        if (kind.role == Role::combine && random() % 3)
-            node.children.push_back(random_tree(1 + static_cast<int>(random() % static_cast<unsigned>(below)), random));
-    }
-    return node;
-}
-
 std::string text(glm::vec3 p) { return fmt::format("({}, {}, {})", p.x, p.y, p.z); }
 
 std::string outline(const Node& node, int depth = 0) {

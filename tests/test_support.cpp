@@ -327,4 +327,29 @@ Edit random_edit(const Scene& scene, std::mt19937& random) {
     }
 }
 
+Node random_tree(int depth, std::mt19937& random) {
+    const auto random_place = [](std::mt19937& r, float half) {
+        const auto coordinate = [&] { return half * (static_cast<float>(r() >> 8) * 0x1p-23f - 1.0f); };
+        const float x = coordinate(), y = coordinate();
+        return glm::vec3(x, y, coordinate());
+    };
+    std::vector<NodeKind> kinds;
+    for (const KindInfo& kind : node_kinds())
+        if (kind.takes_children() == (depth > 1) && kind.role != Role::instance) kinds.push_back(kind.kind);
+    Node node = make_node(kinds[random() % kinds.size()]);
+    const KindInfo& kind = info(node.kind);
+    const std::vector<Parameter> list = parameters(node);
+    for (std::size_t i = 0; i < node.values.size(); ++i) node.values[i] = random_value(list[i], random);
+    node.transform.translate = random_place(random, 0.5f);
+    node.transform.rotate = random() % 3 ? random_place(random, 180.0f) : glm::vec3(0.0f);
+    node.transform.scale = random() % 3 ? 1.0f : 0.3f + 1.7f * static_cast<float>(random() >> 8) * 0x1p-24f;
+    if (kind.takes_children()) {
+        const int below = depth - 1;
+        node.children.push_back(random_tree(below, random));
+        if (kind.role == Role::combine && random() % 3)
+            node.children.push_back(random_tree(1 + static_cast<int>(random() % static_cast<unsigned>(below)), random));
+    }
+    return node;
+}
+
 }  // namespace farfield

@@ -43,6 +43,10 @@ std::vector<Scene> scenes_with_cut_copies();
 /// origin.
 Scene random_scene(unsigned seed, int nodes = 20);
 
+/// Operations down to `depth` levels, then primitives, custom code among them, with random parameters, places and
+/// scales; often two children where the kind combines, else one.
+Node random_tree(int depth, std::mt19937& random);
+
 /// The same scene without instances: each is a copy of what it shows.
 Scene expanded(Scene scene);
 
