@@ -73,7 +73,9 @@ TEST_F(InstancesOnGpu, GiveThePictureOfTheirCopiesInEveryTier) {
 TEST_F(InstancesOnGpu, EveryNameCompiles) {
     // All words of the program itself, keywords among them, and those that GLSL reserves.
     Scene scene = pieces();
-    const std::string source = scene_kernel_source("trace.glsl", generate(scene, Tier::live));
+    constexpr const char* kernels[] = {"trace.glsl", "surface.glsl"};
+    std::string source;
+    for (const char* kernel : kernels) source += scene_kernel_source(kernel, generate(scene, Tier::live));
     std::set<std::string> words{"gl_Position", "main", "sampler2D", "class", "template", "switch", "double", "highp",
                                 "__LINE__",    "1st",  "no",        "scene", "ü",        "a\\",    "*/",     "\"q\""};
     std::string word;
@@ -103,18 +105,20 @@ TEST_F(InstancesOnGpu, EveryNameCompiles) {
         scene.root.children.push_back(instance);
     }
     GeneratedScene generated = generate(scene, Tier::specialised);
-    const std::string text = scene_kernel_source("trace.glsl", generated);
-    // The front end alone: what it accepts the driver can link.
-    const GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
-    const char* pointer = text.c_str();
-    glShaderSource(shader, 1, &pointer, nullptr);
-    glCompileShader(shader);
-    GLint compiled = GL_FALSE;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
-    char log[4096] = "";
-    glGetShaderInfoLog(shader, sizeof log, nullptr, log);
-    EXPECT_EQ(compiled, GL_TRUE) << log;
-    glDeleteShader(shader);
+    for (const char* kernel : kernels) {
+        const std::string text = scene_kernel_source(kernel, generated);
+        // The front end alone: what it accepts the driver can link.
+        const GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
+        const char* pointer = text.c_str();
+        glShaderSource(shader, 1, &pointer, nullptr);
+        glCompileShader(shader);
+        GLint compiled = GL_FALSE;
+        glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
+        char log[4096] = "";
+        glGetShaderInfoLog(shader, sizeof log, nullptr, log);
+        EXPECT_EQ(compiled, GL_TRUE) << kernel << ": " << log;
+        glDeleteShader(shader);
+    }
 }
 
 }  // namespace
