@@ -32,7 +32,7 @@ Node taken_out(Scene& scene, Id id) {
 
 /// The node as it has to be in another parent to show as it does.
 void stay(const Scene& scene, Node& node, Id from, Id to) {
-    node.transform = relative_to(frame_of(scene, to), composed(frame_of(scene, from), node.transform));
+    node.transform = moved_transform(scene, node.transform, from, to);
     check_placement(node);
     if (node.material == 0 && material_in(scene, from) != material_in(scene, to))
         node.material = material_in(scene, from);

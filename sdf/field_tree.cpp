@@ -53,8 +53,7 @@ void both(Extent& extent, const Extent& other) {
 /// What the children fill together, at this level of theirs, in the node's own frame.
 Box content_box(const FieldNode& node, float level, Definitions& definitions) {
     const KindInfo& kind = *node.kind;
-    const float count = static_cast<float>(std::max<std::size_t>(node.children.size(), 2) - 1);
-    if (kind.reach) level += kind.reach(node.values) * (kind.role == Role::combine ? count : 1.0f);
+    level += node.reach();
     Box box = level_box(node.children[0], level, definitions);
     if (kind.gather == Gather::first) return box;
     for (std::size_t i = 1; i < node.children.size(); ++i) {
@@ -195,6 +194,12 @@ std::optional<Box> finite_part(std::vector<const FieldNode*>& path) {
 }
 
 }  // namespace
+
+float FieldNode::reach() const {
+    if (!kind->reach) return 0.0f;
+    const float count = static_cast<float>(std::max<std::size_t>(children.size(), 2) - 1);
+    return kind->reach(values) * (kind->role == Role::combine ? count : 1.0f);
+}
 
 Extent content_extent(const FieldNode& node) {
     if (node.children.empty()) return node.extent;

@@ -51,6 +51,8 @@ struct FieldNode {
     std::vector<Parameter> parameters{};               ///< what the values belong to, but for the derived ones
     std::shared_ptr<const CustomCode> code = nullptr;  ///< of a custom node
 
+    /// How much higher a level its children are asked for; see Bounds.
+    float reach() const;
     /// How much the node would shorten steps at worst: the Lipschitz constant of its field before it is made safe.
     float stretch() const { return code ? code->lipschitz() : kind->stretch ? kind->stretch(values) : 1.0f; }
 };

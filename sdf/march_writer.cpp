@@ -47,19 +47,14 @@ CodeLines MarchWriter::write() {
         all.add("}");
         all.add("");
     }
-    const char* scene = "vec2 scene_march(vec3 p, vec3 v) {";
-    if (tree_.root && gains(*tree_.root, 0.0f)) {
-        next_group_ = next_child_ = 0;
-        CodeLines body{names_};
-        const March result = march(*tree_.root, "p", "v", 0.0f, body);
-        take_functions(all);
-        all.add(scene);
-        all.append(body);
-        all.add(fmt::format("    return {};", result.value));
-    } else {
-        all.add(scene);
-        all.add("    return vec2(scene_distance(p));");
-    }
+    next_group_ = next_child_ = 0;
+    CodeLines body{names_};
+    const March result = tree_.root && gains(*tree_.root, 0.0f) ? march(*tree_.root, "p", "v", 0.0f, body)
+                                                                : March{"vec2(scene_distance(p))"};
+    take_functions(all);
+    all.add("vec2 scene_march(vec3 p, vec3 v) {");
+    all.append(body);
+    all.add(fmt::format("    return {};", result.value));
     all.add("}");
     return all;
 }
@@ -79,12 +74,6 @@ bool MarchWriter::has_box(const FieldNode& n, float level) const {
     return n.extent.box.is_bounded() && (level == 0.0f || n.kind->role == Role::primitive) && !is_live_below(n);
 }
 
-float MarchWriter::level_of_children(const FieldNode& n, float level) const {
-    const float count = static_cast<float>(std::max<std::size_t>(n.children.size(), 2) - 1);
-    const float reach = n.kind->reach ? n.kind->reach(n.values) * (n.kind->role == Role::combine ? count : 1.0f) : 0.0f;
-    return level / n.scale + reach;
-}
-
 bool MarchWriter::gains(const FieldNode& n, float level) const {
     if (by_distance_) return false;
     const KindInfo& kind = *n.kind;
@@ -92,14 +81,13 @@ bool MarchWriter::gains(const FieldNode& n, float level) const {
     if (block_.is_live(n) && (level != 0.0f || kind.reach)) return false;
     if (kind.role == Role::primitive) return kind.along || has_box(n, level);
     if (kind.role == Role::instance) return level == 0.0f && definitions_gain_[n.definition];
-    const float below = level_of_children(n, level);
+    const float below = level / n.scale + n.reach();
     if (kind.role == Role::domain || kind.role == Role::repeat)
         return has_box(n, level) || (is_straight(n) && any_child_gains(n, below));
-    if (kind.gather == Gather::first && gains(n.children[0], below)) return true;
-    if (kind.gather == Gather::first)
-        return takes_away(kind) && std::any_of(n.children.begin() + 1, n.children.end(),
-                                               [&](const FieldNode& c) { return knows_stay(c, below); });
-    return any_child_gains(n, below);
+    if (kind.gather != Gather::first) return any_child_gains(n, below);
+    return gains(n.children[0], below) ||
+           (takes_away(kind) && std::any_of(n.children.begin() + 1, n.children.end(),
+                                            [&](const FieldNode& c) { return knows_stay(c, below); }));
 }
 
 MarchWriter::March MarchWriter::march(const FieldNode& n, const std::string& p, const std::string& v, float level,
@@ -120,7 +108,7 @@ MarchWriter::March MarchWriter::march(const FieldNode& n, const std::string& p, 
         case Role::repeat:
             break;
     }
-    if (is_straight(n) && any_child_gains(n, level_of_children(n, level))) return moved(n, p, v, level, out);
+    if (is_straight(n) && any_child_gains(n, level / n.scale + n.reach())) return moved(n, p, v, level, out);
     return plain(n, p, v, level, out);
 }
 
@@ -151,22 +139,30 @@ bool MarchWriter::is_convex_pair(const FieldNode& n) const {
            std::all_of(n.children.begin(), n.children.end(), is_convex);
 }
 
-std::pair<std::string, std::string> MarchWriter::own_ray(const FieldNode& n, const Numbers& num, int id,
-                                                         const std::string& p, const std::string& v, CodeLines& out) {
-    std::pair<std::string, std::string> ray(p, v);
-    if (num.point != p) {
-        ray.first = fmt::format("p{}", id);
-        out.add(fmt::format("{}vec3 {} = {};", indent, ray.first, num.point), n.id);
+MarchWriter::Group MarchWriter::begin(const FieldNode& n, const std::string& p, const std::string& v, CodeLines& out) {
+    const int id = next_group_++;
+    out.add(indent, n.id, comment(n));
+    Group group{id, numbers(n, p), p, v, fmt::format("d{}", id)};
+    if (group.numbers.point != p) {
+        group.p = fmt::format("p{}", id);
+        out.add(fmt::format("{}vec3 {} = {};", indent, group.p, group.numbers.point), n.id);
     }
     if (const std::string turned = direction(n, v); turned != v) {
-        ray.second = fmt::format("v{}", id);
-        out.add(fmt::format("{}vec3 {} = {};", indent, ray.second, turned), n.id);
+        group.v = fmt::format("v{}", id);
+        out.add(fmt::format("{}vec3 {} = {};", indent, group.v, turned), n.id);
     }
-    return ray;
+    return group;
 }
 
-void MarchWriter::scale(const Numbers& num, const std::string& d, Id node, CodeLines& out) {
-    if (!num.factor.empty()) out.add(fmt::format("{}{} = {}{};", indent, d, num.factor, d), node);
+MarchWriter::March MarchWriter::end(const FieldNode& n, const Group& group, float level, bool knows_distance,
+                                    CodeLines& out) {
+    const std::string &d = group.d, &factor = group.numbers.factor;
+    if (!factor.empty()) out.add(fmt::format("{}{} = {}{};", indent, d, factor, d), n.id);
+    if (!knows_distance)
+        out.add(
+            fmt::format("{}{}.y = max({}.y, {}.x{});", indent, d, d, d, level == 0.0f ? "" : " - " + literal(level)),
+            n.id);
+    return {d, true};
 }
 
 void MarchWriter::fold(const FieldNode& n, const Numbers& num, const std::string& d, const std::string& p,
@@ -207,40 +203,28 @@ void MarchWriter::fold(const FieldNode& n, const Numbers& num, const std::string
 MarchWriter::March MarchWriter::group(const FieldNode& n, const std::string& p, const std::string& v, float level,
                                       CodeLines& out) {
     const KindInfo& kind = *n.kind;
-    const int id = next_group_++;
-    out.add(indent, n.id, comment(n));
-    const Numbers num = numbers(n, p);
-    const auto [own, turned] = own_ray(n, num, id, p, v, out);
-    const std::string d = fmt::format("d{}", id);
+    const Group group = begin(n, p, v, out);
+    const auto& [id, num, own, turned, d] = group;
     if (is_convex_pair(n)) {
         out.add(fmt::format("{}vec2 {} = {};", indent, d, tangent(n.children[0], own, turned)), n.children[0].id,
                 comment(n.children[0]));
         out.add(fmt::format("{}{} = smooth_union_advance({}, {}{}, {});", indent, d, d,
                             tangent(n.children[1], own, turned), num.arguments, literal(level / n.scale)),
                 n.children[1].id, comment(n.children[1]));
-        scale(num, d, n.id, out);
-        return {d, true};
+        return end(n, group, level, true, out);
     }
-    fold(n, num, d, own, turned, level_of_children(n, level), out);
+    fold(n, num, d, own, turned, level / n.scale + n.reach(), out);
     if (kind.role == Role::distance)
         out.add(fmt::format("{}{}.x = {}({}.x{});", indent, d, kind.function, d, num.arguments), n.id);
-    scale(num, d, n.id, out);
-    // A distance is always a way that is free.
-    if (kind.role == Role::distance || !num.hard || !is_hard(kind))
-        out.add(
-            fmt::format("{}{}.y = max({}.y, {}.x{});", indent, d, d, d, level == 0.0f ? "" : " - " + literal(level)),
-            n.id);
-    return {d, true};
+    return end(n, group, level, kind.role == Role::combine && num.hard && is_hard(kind), out);
 }
 
 MarchWriter::March MarchWriter::moved(const FieldNode& n, const std::string& p, const std::string& v, float level,
                                       CodeLines& out) {
     const KindInfo& kind = *n.kind;
-    const int id = next_group_++;
-    out.add(indent, n.id, comment(n));
-    const Numbers num = numbers(n, p);
-    const auto [own, turned] = own_ray(n, num, id, p, v, out);
-    const std::string args = num.arguments + num.derived, d = fmt::format("d{}", id);
+    const Group group = begin(n, p, v, out);
+    const auto& [id, num, own, turned, d] = group;
+    const std::string args = num.arguments + num.derived;
     const int cells = kind.role == Role::repeat ? kind.cells(n.values) : 1;
     std::string along = turned;
     if (kind.direction) {
@@ -248,7 +232,7 @@ MarchWriter::March MarchWriter::moved(const FieldNode& n, const std::string& p, 
         out.add(fmt::format("{}vec3 {} = {}({}, {}{});", indent, along, kind.direction, own, turned, num.arguments),
                 n.id);
     }
-    const float below = level_of_children(n, level);
+    const float below = level / n.scale + n.reach();
     if (cells == 1) {
         const std::string q = fmt::format("q{}", id);
         out.add(fmt::format("{}vec3 {} = {}({}{}{});", indent, q, kind.function, own,
@@ -280,10 +264,7 @@ MarchWriter::March MarchWriter::moved(const FieldNode& n, const std::string& p, 
                             literal(box.centre()), turned, literal(0.5f * box.size())),
                 n.id);
     }
-    scale(num, d, n.id, out);
-    out.add(fmt::format("{}{}.y = max({}.y, {}.x{});", indent, d, d, d, level == 0.0f ? "" : " - " + literal(level)),
-            n.id);
-    return {d, true};
+    return end(n, group, level, false, out);
 }
 
 bool MarchWriter::is_straight(const FieldNode& n) const {

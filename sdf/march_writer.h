@@ -8,16 +8,16 @@
 // that it never meets it. What counts is the first of the children of a union and the last of those of an intersection,
 // so each may go on by what it knows, and one that knows no more than its distance holds up the others only where it is
 // near. A blend reaches beyond its children: there they are asked for the level that it adds (KindInfo::reach and
-// gather, as for bounds). A ray within what is taken away stays free as long as it is there. What is bent, repeated or
-// custom knows its distance and, where it has an end, the box that holds it.
+// gather, as for bounds). A ray within what is taken away stays free as long as it is there. A mirror or a row of
+// copies holds it up where it meets the mirror or comes to other copies. What is bent or custom knows its distance and,
+// where it has an end, the box that holds it.
 //
-// In the Cornell room that takes 2.0 evaluations per ray in place of 21.8 of relaxed sphere tracing.
+// In the Cornell room that takes 2.4 evaluations per ray in place of 21.1 of relaxed sphere tracing.
 #pragma once
 
 #include "sdf/code_writer.h"
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace farfield {
@@ -35,7 +35,6 @@ private:
     bool gains(const FieldNode& n, float level) const;
     bool has_box(const FieldNode& n, float level) const;
     bool is_live_below(const FieldNode& n) const;
-    float level_of_children(const FieldNode& n, float level) const;
 
     /// Each gives an expression of both numbers, or the variable that holds them.
     struct March {
@@ -55,16 +54,22 @@ private:
     /// The children together, in the variable `d` that this declares.
     void fold(const FieldNode& n, const Numbers& num, const std::string& d, const std::string& p, const std::string& v,
               float below, CodeLines& out);
-    /// Point and direction in the node's own frame, as variables where they are others.
-    std::pair<std::string, std::string> own_ray(const FieldNode& n, const Numbers& num, int id, const std::string& p,
-                                                const std::string& v, CodeLines& out);
-    static void scale(const Numbers& num, const std::string& d, Id node, CodeLines& out);
+    /// A node with children: point and direction in its own frame, and the variable of both its numbers.
+    struct Group {
+        int id;
+        Numbers numbers;
+        std::string p, v, d;
+    };
+    Group begin(const FieldNode& n, const std::string& p, const std::string& v, CodeLines& out);
+    /// Brings both numbers to the parent's frame. A distance is always a way that is free: unless that is sure, as
+    /// `knows_distance` says, it is put in.
+    static March end(const FieldNode& n, const Group& group, float level, bool knows_distance, CodeLines& out);
     /// The functions of copies that were written so far.
     void take_functions(CodeLines& out);
     bool any_child_gains(const FieldNode& n, float below) const;
     bool is_straight(const FieldNode& n) const;
 
-    /// How long the ray stays where the node's distance is below -level; empty where nothing is known of that.
+    /// How long the ray stays where the node's distance is below -level, and whether that is known.
     std::string stay(const FieldNode& n, const std::string& p, const std::string& v, float level);
     bool knows_stay(const FieldNode& n, float level) const;
 

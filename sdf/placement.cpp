@@ -48,4 +48,8 @@ Transform frame_of(const Scene& scene, Id node) {
     return frame;
 }
 
+Transform moved_transform(const Scene& scene, const Transform& transform, Id from, Id to) {
+    return relative_to(frame_of(scene, to), composed(frame_of(scene, from), transform));
+}
+
 }  // namespace farfield

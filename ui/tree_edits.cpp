@@ -33,12 +33,6 @@ private:
     bool refused_ = false;
 };
 
-int index_in(const Node& parent, Id child) {
-    const auto it =
-        std::find_if(parent.children.begin(), parent.children.end(), [&](const Node& n) { return n.id == child; });
-    return static_cast<int>(it - parent.children.begin());
-}
-
 /// The selected nodes that are in none of the others.
 std::vector<Id> tops(const Scene& scene, const Selection& selection) {
     return topmost(scene, selected_nodes(selection));
@@ -77,7 +71,7 @@ Edits stay_in_place(const Scene& scene, Id id, Id to) {
     const Node* from = find_parent(scene, id);
     if (!from || from->id == to || find_top(scene, id) != find_top(scene, to)) return {};
     const Transform now = find_node(scene, id)->transform;
-    const Transform wanted = relative_to(frame_of(scene, to), composed(frame_of(scene, from->id), now));
+    const Transform wanted = moved_transform(scene, now, from->id, to);
     Edits edits;
     for (const auto& field : fields<Transform>()) {
         const glm::vec3 value = field.get(wanted);
@@ -112,6 +106,12 @@ std::optional<SetValue> carried_over(const Scene& scene, const SetValue& set, Id
 }
 
 }  // namespace
+
+int index_in(const Node& parent, Id child) {
+    const auto it =
+        std::find_if(parent.children.begin(), parent.children.end(), [&](const Node& n) { return n.id == child; });
+    return static_cast<int>(it - parent.children.begin());
+}
 
 Edit insert_at_selection(const Scene& scene, const Selection& selection, Node node) {
     const Node* selected =

@@ -6,6 +6,9 @@
 
 namespace farfield {
 
+/// Which of its parent's children it is.
+int index_in(const Node& parent, Id child);
+
 /// Where a user would expect it: in the selected node when that takes children, otherwise after it; at the end of the
 /// root without a selection.
 Edit insert_at_selection(const Scene& scene, const Selection& selection, Node node);

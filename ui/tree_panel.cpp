@@ -23,12 +23,6 @@ bool contains(const Node& node, Id id) {
            std::any_of(node.children.begin(), node.children.end(), [&](const Node& n) { return contains(n, id); });
 }
 
-int index_in(const Node& parent, Id child) {
-    const auto it =
-        std::find_if(parent.children.begin(), parent.children.end(), [&](const Node& n) { return n.id == child; });
-    return static_cast<int>(it - parent.children.begin());
-}
-
 bool is_dragged() {
     const ImGuiIO& io = ImGui::GetIO();
     return io.MouseDragMaxDistanceSqr[ImGuiMouseButton_Left] >= io.MouseDragThreshold * io.MouseDragThreshold;
