@@ -86,6 +86,7 @@ struct RenderThread::State {
     void take_request();
     void update(Tier tier, Id tuned);
     bool compile_in_background();
+    void compile_one(Tier tier, Id tuned);
     void work();
     bool outdated();
     void show();
@@ -256,14 +257,18 @@ void RenderThread::State::update(Tier tier, Id tuned) {
     statistics.frames_per_second = rate;
 }
 
-/// When the hand rests: first the program with literals for the picture, then those that the next edit will need.
-/// True when it compiled something.
+/// When the hand rests: first the program with literals for the picture, then those that the next edit will need. One
+/// part of a large scene after the other, so that an edit does not have to wait for all of them. True when it did
+/// something.
 bool RenderThread::State::compile_in_background() {
     if (current.interacting || gave_up || prepared || Clock::now() - request_time < rest) return false;
     const Scene& scene = *current.scene;
     const auto missing = [&](Tier tier, Id tuned) { return renderer->needs_compile(scene, tier, tuned); };
     if (!renderer->statistics().specialised) {
-        update(Tier::specialised, 0);
+        if (missing(Tier::specialised, 0))
+            compile_one(Tier::specialised, 0);
+        else
+            update(Tier::specialised, 0);
         return true;
     }
     const std::chrono::duration<double, std::milli> longer(patience * renderer->statistics().compile_milliseconds);
@@ -272,9 +277,22 @@ bool RenderThread::State::compile_in_background() {
     const bool live = !tuned && expanded_node_count(scene) <= largest_live_scene && missing(Tier::live, 0);
     prepared = !tuned && !live;
     if (prepared) return false;
-    update(tuned ? Tier::specialised : Tier::live, tuned ? current.tuned : 0);
-    update(Tier::specialised, 0);
+    compile_one(tuned ? Tier::specialised : Tier::live, tuned ? current.tuned : 0);
     return true;
+}
+
+void RenderThread::State::compile_one(Tier tier, Id tuned) {
+    try {
+        renderer->compile_one(*current.scene, tier, tuned);
+    } catch (const std::exception& failure) {
+        gave_up = true;
+        const std::lock_guard lock(mutex);
+        error = failure.what();
+    }
+    const std::lock_guard lock(mutex);
+    statistics.structural_compiles = renderer->statistics().structural_compiles;
+    statistics.specialisations = renderer->statistics().specialisations;
+    statistics.compile_milliseconds = renderer->statistics().compile_milliseconds;
 }
 
 /// Whether the picture is what the wish is for.

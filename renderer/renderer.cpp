@@ -96,11 +96,20 @@ bool Renderer::keeps_samples(const Scene& scene, const FrameOptions& options) co
     return transport_bytes(scene, options) == transport_;
 }
 
-bool Renderer::update(const Scene& scene, const FrameOptions& options) {
-    programs_.select(scene, options.tier, options.tuned);  // may throw; nothing has changed until here
+void Renderer::compile_one(const Scene& scene, Tier tier, Id tuned) {
+    programs_.compile_one(scene, tier, tuned);
+    note_compiles();
+}
+
+void Renderer::note_compiles() {
     statistics_.structural_compiles = programs_.structural_compiles();
     statistics_.specialisations = programs_.other_compiles();
     statistics_.compile_milliseconds = programs_.last_compile_milliseconds();
+}
+
+bool Renderer::update(const Scene& scene, const FrameOptions& options) {
+    programs_.select(scene, options.tier, options.tuned);  // may throw; nothing has changed until here
+    note_compiles();
     statistics_.specialised = options.tier == Tier::specialised && options.tuned == 0;
 
     std::string transport = transport_bytes(scene, options);

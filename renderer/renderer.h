@@ -52,6 +52,9 @@ public:
     /// Whether `update` with these would have to compile.
     bool needs_compile(const Scene& scene, Tier tier, Id tuned = 0) const { return !programs_.has(scene, tier, tuned); }
 
+    /// Compiles one of the programs that `update` would have to compile, and changes nothing else. Throws ShaderError.
+    void compile_one(const Scene& scene, Tier tier, Id tuned = 0);
+
     /// Whether `update` with these would keep the accumulated samples, but for a change of size.
     bool keeps_samples(const Scene& scene, const FrameOptions& options) const;
 
@@ -80,6 +83,7 @@ public:
     glm::ivec2 size() const { return options_.size; }
 
 private:
+    void note_compiles();
     void begin_frame();
     void finish_frame();
     bool synthesise(View view, const std::function<bool()>& stop = {});

@@ -20,7 +20,7 @@ struct Statistics {
     int samples = 0;                  ///< hemisphere rays per pixel accumulated since the last reset
     int structural_compiles = 0;      ///< programs made for a structure not met before; a parameter edit never adds one
     int specialisations = 0;          ///< further programs for known structures, made once the hand rested
-    double compile_milliseconds = 0.0;  ///< of the last program
+    double compile_milliseconds = 0.0;  ///< of the last program, or of all parts made at once
     double edit_milliseconds = 0.0;     ///< from the latest change of the scene to its first picture
     bool specialised = false;           ///< the picture comes from the program with literals
     int bounces = 0;                    ///< of far light: the setting, or what auto has come to

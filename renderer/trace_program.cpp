@@ -2,18 +2,20 @@
 
 #include "renderer/context.h"
 #include "renderer/records.h"
+#include "sdf/scene_parts.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
 #include <regex>
+#include <utility>
 
 namespace farfield {
 namespace {
 
-constexpr std::size_t cache_size = 64;
-constexpr int generated_file = 2;  // its number in #line directives
+constexpr std::size_t cache_size = 512;  // of parts
+constexpr int generated_file = 2;        // its number in #line directives
 
 /// Larger scenes are refused: llvmpipe took 2.7 s to compile 1,000 nodes, 8 s for 2,000, 28 s for 4,000.
 constexpr std::uint64_t largest_program = 4000;
@@ -80,33 +82,54 @@ std::string scene_kernel_source(const std::string& file, const GeneratedScene& g
 
 // On a GPU rays are many and lanes need work at once. On llvmpipe 8 to 32 rays and pauses of 4 to 16 evaluations differ
 // by less than 5 %.
-TracePrograms::TracePrograms() : schedule_(renders_on_cpu() ? Schedule{16, 8} : Schedule{1, 1 << 20}) {
-    parameters_.resize(0);
+TracePrograms::TracePrograms() : schedule_(renders_on_cpu() ? Schedule{16, 8} : Schedule{1, 1 << 20}) {}
+
+TracePrograms::Cache::const_iterator TracePrograms::find(const std::string& key) const {
+    return std::find_if(cache_.begin(), cache_.end(), [&](const auto& entry) { return entry->key == key; });
 }
 
 bool TracePrograms::has(const Scene& scene, Tier tier, Id tuned) const {
     if (expanded_node_count(scene) > largest_program) return false;
-    const std::string key = generate(scene, tier, tuned).key;
-    return std::any_of(cache_.begin(), cache_.end(), [&](const Entry& entry) { return entry.key == key; });
+    const std::vector<Scene> parts = scene_parts(scene);
+    return std::all_of(parts.begin(), parts.end(),
+                       [&](const Scene& part) { return find(generate(part, tier, tuned).key) != cache_.end(); });
+}
+
+void TracePrograms::compile_one(const Scene& scene, Tier tier, Id tuned) {
+    check_size(scene);
+    for (const Scene& part : scene_parts(scene)) {
+        const GeneratedScene generated = generate(part, tier, tuned);
+        if (find(generated.key) != cache_.end()) continue;
+        compile_milliseconds_ = 0.0;
+        compile(part, generated);
+        return;
+    }
 }
 
 void TracePrograms::select(const Scene& scene, Tier tier, Id tuned) {
     check_size(scene);
-    const GeneratedScene generated = generate(scene, tier, tuned);
-    const auto found =
-        std::find_if(cache_.begin(), cache_.end(), [&](const Entry& entry) { return entry.key == generated.key; });
-    if (found == cache_.end())
-        compile(scene, generated);
-    else
-        cache_.splice(cache_.begin(), cache_, found);
-    current_ = &cache_.front();
-    parameters_.upload(std::span<const float>(generated.parameters));
-    // Hits lie up to an epsilon before the surface; rays that run along the bounds must not lose them to rounding.
-    bounds_ = {generated.bounds.low - 0.01f * (1.0f + glm::abs(generated.bounds.low)),
-               generated.bounds.high + 0.01f * (1.0f + glm::abs(generated.bounds.high))};
+    std::vector<Part> parts;
+    bool compiled = false;
+    for (const Scene& scene_part : scene_parts(scene)) {
+        const GeneratedScene generated = generate(scene_part, tier, tuned);
+        const auto found = find(generated.key);
+        if (found == cache_.end()) {
+            if (!std::exchange(compiled, true)) compile_milliseconds_ = 0.0;
+            compile(scene_part, generated);
+        } else {
+            cache_.splice(cache_.begin(), cache_, found);
+        }
+        Part& part = parts.emplace_back();
+        part.programs = cache_.front();
+        part.parameters.upload(std::span<const float>(generated.parameters));
+        // Hits lie up to an epsilon before the surface; rays that run along the bounds must not lose them to rounding.
+        part.bounds = {generated.bounds.low - 0.01f * (1.0f + glm::abs(generated.bounds.low)),
+                       generated.bounds.high + 0.01f * (1.0f + glm::abs(generated.bounds.high))};
+    }
+    current_ = std::move(parts);
 }
 
-void TracePrograms::compile(const Scene& scene, const GeneratedScene& generated) {
+void TracePrograms::compile(const Scene& part, const GeneratedScene& generated) {
     GLint largest_block = 0;
     glGetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &largest_block);
     if (generated.parameters.size() * sizeof(float) > static_cast<std::size_t>(largest_block))
@@ -118,35 +141,49 @@ void TracePrograms::compile(const Scene& scene, const GeneratedScene& generated)
         entry.march = gl::Program("the scene's trace kernel", scene_kernel_source("trace.glsl", generated));
         entry.surface = gl::Program("the scene's surface kernel", scene_kernel_source("surface.glsl", generated));
     } catch (const ShaderError& error) {
-        throw ShaderError(explain(scene, generated, error.what()));
+        throw ShaderError(explain(part, generated, error.what()));
     }
     // Drivers compile compute shaders at their first dispatch: have that now, with no ray to trace.
-    parameters_.bind_uniform(binding::parameters);
+    gl::Buffer parameters("parameters");
+    parameters.upload(std::span<const float>(generated.parameters));
+    parameters.bind_uniform(binding::parameters);
     for (const gl::Program* program : {&entry.march, &entry.surface}) {
         program->set("ray_count", 0u);
         program->run(std::size_t{1});
     }
     glFinish();
-    compile_milliseconds_ = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    compile_milliseconds_ +=
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     ++compiles_;
-    structures_.insert(std::hash<std::string>()(generate(scene, Tier::live).key));
-    cache_.push_front(std::move(entry));
+    structures_.insert(std::hash<std::string>()(generate(part, Tier::live).key));
+    cache_.push_front(std::make_shared<const Entry>(std::move(entry)));
     if (cache_.size() > cache_size) cache_.pop_back();
 }
 
 void TracePrograms::trace(std::size_t count, bool surfaces, bool counting) const {
-    parameters_.bind_uniform(binding::parameters);
-    const gl::Program& march = current_->march;
-    march.set("ray_count", static_cast<unsigned>(count));
-    march.set("rays_each", static_cast<unsigned>(schedule_.rays_each));
-    march.set("pause", schedule_.pause);
-    march.set("counting", counting ? 1 : 0);
-    march.set("scene_low", bounds_.low);
-    march.set("scene_high", bounds_.high);
-    march.run((count + schedule_.rays_each - 1) / schedule_.rays_each);
+    unsigned index = 0;
+    for (const Part& part : current_) {
+        const gl::Program& march = part.programs->march;
+        part.parameters.bind_uniform(binding::parameters);
+        march.set("ray_count", static_cast<unsigned>(count));
+        march.set("rays_each", static_cast<unsigned>(schedule_.rays_each));
+        march.set("pause", schedule_.pause);
+        march.set("counting", counting ? 1 : 0);
+        march.set("part", index++);
+        march.set("any_hit", surfaces ? 0 : 1);
+        march.set("scene_low", part.bounds.low);
+        march.set("scene_high", part.bounds.high);
+        march.run((count + schedule_.rays_each - 1) / schedule_.rays_each);
+    }
     if (!surfaces) return;
-    current_->surface.set("ray_count", static_cast<unsigned>(count));
-    current_->surface.run(count);
+    index = 0;
+    for (const Part& part : current_) {
+        const gl::Program& surface = part.programs->surface;
+        part.parameters.bind_uniform(binding::parameters);
+        surface.set("ray_count", static_cast<unsigned>(count));
+        surface.set("part", index++);
+        surface.run(count);
+    }
 }
 
 }  // namespace farfield

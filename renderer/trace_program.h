@@ -1,13 +1,16 @@
-// The programs made from scenes: trace.glsl with the generated distance function in front. Two tiers (sdf/codegen.h); a
-// cache by the code's text, so that undo and redo find their program again.
+// The programs made from scenes: trace.glsl with the generated distance function in front, for each part of a large
+// scene (sdf/scene_parts.h). Two tiers (sdf/codegen.h); a cache by the code's text, so that undo and redo find their
+// programs again, and so do the parts that an edit has not touched.
 #pragma once
 
 #include "renderer/gl.h"
 #include "sdf/codegen.h"
 
 #include <list>
+#include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace farfield {
 
@@ -15,13 +18,16 @@ class TracePrograms {
 public:
     TracePrograms();
 
-    /// Makes a program of `scene` (see generate) current for `trace`; compiles it if the cache has none. When that
-    /// fails it throws ShaderError whose message names the node, and the last good program stays.
+    /// Makes the programs of `scene` (see generate) current for `trace`; compiles those that the cache has not. When
+    /// that fails it throws ShaderError whose message names the node, and the last good programs stay.
     void select(const Scene& scene, Tier tier, Id tuned = 0);
-    /// Whether select would find its program in the cache.
+    /// Whether select would find its programs in the cache.
     bool has(const Scene& scene, Tier tier, Id tuned = 0) const;
+    /// Compiles one of those that select would have to compile. Throws like it; does nothing where none is missing.
+    void compile_one(const Scene& scene, Tier tier, Id tuned = 0);
 
-    /// Ray buffer to hit buffer, `count` rays from the first. `surfaces`: normal and material too.
+    /// Ray buffer to hit buffer, `count` rays from the first. `surfaces`: normal and material too; without, any hit
+    /// serves where rays meet several parts.
     void trace(std::size_t count, bool surfaces, bool counting) const;
 
     int structural_compiles() const { return static_cast<int>(structures_.size()); }
@@ -33,7 +39,14 @@ private:
         std::string key;
         gl::Program march, surface;
     };
-    void compile(const Scene& scene, const GeneratedScene& generated);
+    using Cache = std::list<std::shared_ptr<const Entry>>;
+    struct Part {
+        std::shared_ptr<const Entry> programs;
+        gl::Buffer parameters{"parameters"};
+        Box bounds;
+    };
+    Cache::const_iterator find(const std::string& key) const;
+    void compile(const Scene& part, const GeneratedScene& generated);
 
     /// See trace.glsl.
     struct Schedule {
@@ -42,10 +55,8 @@ private:
     };
     Schedule schedule_;
 
-    std::list<Entry> cache_;  ///< most recently used first
-    const Entry* current_ = nullptr;
-    gl::Buffer parameters_{"parameters"};
-    Box bounds_;                        ///< of the current scene
+    Cache cache_;  ///< most recently used first
+    std::vector<Part> current_;
     std::set<std::size_t> structures_;  ///< hashes of the live code of every scene that was compiled
     int compiles_ = 0;
     double compile_milliseconds_ = 0.0;

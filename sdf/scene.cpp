@@ -260,12 +260,13 @@ int count_nodes(const Scene& scene) {
     return count;
 }
 
-std::uint64_t expanded_node_count(const Scene& scene) {
-    Counts counts;
-    visit_definitions(scene,
-                      [&](const Node& definition) { counts[definition.id] = expanded_count(definition, counts); });
-    return expanded_count(scene.root, counts);
+ExpandedCounts::ExpandedCounts(const Scene& scene) {
+    visit_definitions(scene, [&](const Node& definition) { definitions_[definition.id] = of(definition); });
 }
+
+std::uint64_t ExpandedCounts::of(const Node& node) const { return expanded_count(node, definitions_); }
+
+std::uint64_t expanded_node_count(const Scene& scene) { return ExpandedCounts(scene).of(scene.root); }
 
 int count_uses(const Scene& scene, Id definition) {
     int count = 0;

@@ -12,6 +12,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace farfield {
@@ -163,6 +164,15 @@ int count_nodes(const Scene& scene);  ///< the root, the definitions and everyth
 /// hidden: what a compiler that inlines every call has to deal with. Definitions that use each other double that
 /// easily; the largest value stands for everything beyond.
 std::uint64_t expanded_node_count(const Scene& scene);
+/// The same for single nodes of a scene, which must not change meanwhile.
+class ExpandedCounts {
+public:
+    explicit ExpandedCounts(const Scene& scene);
+    std::uint64_t of(const Node& node) const;
+
+private:
+    std::unordered_map<Id, std::uint64_t> definitions_;
+};
 /// How many instances of the definition there are, in the tree and in other definitions.
 int count_uses(const Scene& scene, Id definition);
 

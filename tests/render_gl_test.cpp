@@ -5,6 +5,7 @@
 #include "renderer/records.h"
 #include "sdf/edit.h"
 #include "sdf/scene_file.h"
+#include "sdf/scene_parts.h"
 #include "tests/test_support.h"
 
 #include <fmt/format.h>
@@ -79,12 +80,58 @@ TEST_F(Render, AllTiersGiveTheSamePicture) {
         const Image literals = render(scene, 2);
         for (const FrameOptions& options : {live, tuned}) {
             use(ContextKind::automatic);
-            // Rounding differs, and where rays stop within their tolerance, so single paths may part ways; the picture must
-            // not.
+            // Rounding differs, and where rays stop within their tolerance, so single paths may part ways; the picture
+            // must not.
             const Difference difference = compare(literals, render(scene, 2, options));
             EXPECT_LE(difference.rmse, 6e-3) << name;
         }
     }
+}
+
+TEST_F(Render, ALargeSceneInPartsGivesThePictureOfTheWhole) {
+    for (const char* name : {"chess", "helix"}) {
+        const Scene scene = bundled(name);
+        Scene whole = scene;  // below an operation that changes nothing, which is not taken apart
+        whole.root.children.assign(1, make_node(NodeKind::round));
+        whole.root.children[0].id = whole.new_id();
+        whole.root.children[0].values[0] = glm::vec3(0.0f);
+        whole.root.children[0].children = scene.root.children;
+        ASSERT_GT(scene_parts(scene).size(), 1u);
+        ASSERT_EQ(scene_parts(whole).size(), 1u);
+        FrameOptions counted = small;
+        counted.counting = true;
+        use(ContextKind::automatic);
+        const Image apart = render(scene, 2, counted), depth = renderer_->read(View::depth);
+        const std::uint64_t rays = renderer_->statistics().rays;
+        use(ContextKind::automatic);
+        const Image together = render(whole, 2, counted), whole_depth = renderer_->read(View::depth);
+        EXPECT_NEAR(static_cast<double>(rays), static_cast<double>(renderer_->statistics().rays),
+                    0.001 * static_cast<double>(rays))
+            << name;
+        EXPECT_LE(compare(apart, together).rmse, 6e-3) << name;
+        EXPECT_LE(compare(depth, whole_depth).rmse, 0.02) << name;
+    }
+}
+
+TEST_F(Render, AnEditOfALargeSceneCompilesItsOwnPart) {
+    Scene scene = bundled("helix");
+    render(scene, 1);
+    const int parts = renderer_->statistics().structural_compiles;
+    EXPECT_EQ(parts, static_cast<int>(scene_parts(scene).size()));
+    apply(scene, InsertNode{scene.root.id, 2, make_node(NodeKind::sphere)});
+    FrameOptions options = small;
+    render(scene, 1, options);
+    EXPECT_LE(renderer_->statistics().structural_compiles + renderer_->statistics().specialisations, parts + 2);
+    // All that the selected node needs, one program at a time.
+    options.tuned = scene.root.children[2].id;
+    const int before = renderer_->statistics().specialisations;
+    int compiled = 0;
+    for (; renderer_->needs_compile(scene, options.tier, options.tuned); ++compiled)
+        renderer_->compile_one(scene, options.tier, options.tuned);
+    EXPECT_EQ(compiled, 1);
+    EXPECT_EQ(renderer_->statistics().specialisations, before + 1);
+    renderer_->update(scene, options);
+    EXPECT_EQ(renderer_->statistics().specialisations, before + 1);
 }
 
 TEST_F(Render, SwappingTiersDiscardsNothing) {

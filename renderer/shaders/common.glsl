@@ -30,8 +30,10 @@ struct Hit {
     float distance;  // along the ray; -1 for none
     uint normal;     // octahedral, see pack_normal
     uint material;   // code of blend_materials
-    uint steps;      // distance evaluations of the march; bit 31: stopped by the step limit
+    uint steps;      // lower bits: distance evaluations of the march; upper ones: the part of the scene that was hit
 };
+const uint steps_mask = 0xffffu;
+const int part_shift = 16;
 
 const uint no_surface = 0xffffffffu;
 struct Surface {

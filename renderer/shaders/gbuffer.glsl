@@ -24,5 +24,5 @@ void main() {
     }
     surfaces[pixel] = surface;
     direct_sum[pixel] += vec4(emitted, max(hit.distance, 0.0));
-    albedo_sum[pixel] += vec4(albedo, float(hit.steps & 0x7fffffffu));
+    albedo_sum[pixel] += vec4(albedo, float(hit.steps & steps_mask));
 }

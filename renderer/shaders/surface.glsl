@@ -4,11 +4,12 @@
 layout(local_size_x = 64) in;
 
 uniform uint ray_count;
+uniform uint part;  // of the scene; the others' hits are left alone
 
 void main() {
     load_parameters();
     uint i = gl_GlobalInvocationID.x;
-    if (i >= ray_count || hits[i].distance < 0.0) return;
+    if (i >= ray_count || hits[i].distance < 0.0 || hits[i].steps >> part_shift != part) return;
     Ray ray = rays[i];
     float t = hits[i].distance;
     vec3 p = ray.origin + t * ray.direction;

@@ -17,6 +17,8 @@ uniform uint ray_count;
 uniform uint rays_each;
 uniform int pause;
 uniform int counting;        // 1: add to the counters
+uniform uint part;           // which part of the scene this is; 0 is the first
+uniform int any_hit;         // 1: a ray that met an earlier part looks for nothing more
 uniform vec3 scene_low;      // all surfaces lie within this box
 uniform vec3 scene_high;
 
@@ -39,26 +41,36 @@ void main() {
     int steps;
     bool found, marching = false;
     do {
-        if (!marching) {
-            ray = rays[i];
-            footprint = ray.footprint * exp2(minimum_step);
-            spacing = float_spacing(ray.origin);
-            // Where the ray is within the scene's bounds.
-            vec3 inverse_direction = 1.0 / mix(ray.direction, vec3(1e-20), lessThan(abs(ray.direction), vec3(1e-20)));
-            vec3 to_low = (scene_low - ray.origin) * inverse_direction;
-            vec3 to_high = (scene_high - ray.origin) * inverse_direction;
-            vec3 enter = min(to_low, to_high);
-            vec3 leave = max(to_low, to_high);
-            reach = min(ray.reach, min(leave.x, min(leave.y, leave.z)));
-            t = max(0.0, max(enter.x, max(enter.y, enter.z)));  // nothing lies before this
-            radius = 0.0;  // distance there
-            free = 0.0;    // how far it may go on from there
-            stride = 0.0;  // step being tried
-            slope = -1.0;  // of the distance along the ray, smoothed
-            steps = 0;
-            found = false;
-            marching = t < reach;
-        }
+        // The next ray that comes near this part.
+        do {
+            if (!marching && i < end) {
+                ray = rays[i];
+                float met = part > 0u ? hits[i].distance : -1.0;
+                footprint = ray.footprint * exp2(minimum_step);
+                spacing = float_spacing(ray.origin);
+                // Where the ray is within the part's bounds.
+                vec3 inverse_direction = 1.0 / mix(ray.direction, vec3(1e-20), lessThan(abs(ray.direction), vec3(1e-20)));
+                vec3 to_low = (scene_low - ray.origin) * inverse_direction;
+                vec3 to_high = (scene_high - ray.origin) * inverse_direction;
+                vec3 enter = min(to_low, to_high);
+                vec3 leave = max(to_low, to_high);
+                reach = met < 0.0 ? ray.reach : any_hit == 1 ? 0.0 : met;
+                reach = min(reach, min(leave.x, min(leave.y, leave.z)));
+                t = max(0.0, max(enter.x, max(enter.y, enter.z)));  // nothing lies before this
+                radius = 0.0;  // distance there
+                free = 0.0;    // how far it may go on from there
+                stride = 0.0;  // step being tried
+                slope = -1.0;  // of the distance along the ray, smoothed
+                steps = 0;
+                found = false;
+                marching = t < reach;
+                if (part == 0u) {
+                    if (counting == 1 && ray.reach > 0.0) atomicAdd(counted_rays, 1u);
+                    if (!marching) hits[i] = Hit(-1.0, 0u, 0u, 0u);
+                }
+                if (!marching) i += 64u;
+            }
+        } while (!marching && i < end);
         int left = pause;
         do {
             float next = t + stride;
@@ -81,15 +93,18 @@ void main() {
             }
             --left;
         } while (marching && left > 0);
-        if (!marching) {
+        if (!marching && i < end) {
             // Out of steps: a ray that grazes a surface has met it, any other has met nothing. Where it stands now decides;
             // the nearest miss of the whole way would draw fringes around what a ray to the horizon passes.
             bool exhausted = steps >= step_limit && !found && t + free < reach;
             found = found || (exhausted && radius < near_enough * t);
             if (found) t += max(radius, 0.0);
-            hits[i] = Hit(found && t < ray.reach ? t : -1.0, 0u, 0u, uint(steps) | (exhausted ? 0x80000000u : 0u));
-            if (counting == 1 && ray.reach > 0.0) {
-                atomicAdd(counted_rays, 1u);
+            Hit hit = part > 0u ? hits[i] : Hit(-1.0, 0u, 0u, 0u);
+            bool nearest = found && t < (hit.distance < 0.0 ? ray.reach : hit.distance);
+            uint all_steps = min((hit.steps & steps_mask) + uint(steps), steps_mask);
+            hits[i] = Hit(nearest ? t : hit.distance, 0u, 0u,
+                          all_steps | (nearest ? part << part_shift : hit.steps & ~steps_mask));
+            if (counting == 1) {
                 atomicAdd(counted_steps, uint(steps));
                 if (exhausted) atomicAdd(exhausted_rays, 1u);
             }
