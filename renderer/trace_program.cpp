@@ -17,8 +17,7 @@ namespace {
 constexpr std::size_t cache_size = 512;  // of parts
 constexpr int generated_file = 2;        // its number in #line directives
 
-/// Larger scenes are refused: llvmpipe took 2.7 s to compile 1,000 nodes, 8 s for 2,000, 28 s for 4,000.
-constexpr std::uint64_t largest_program = 4000;
+constexpr std::uint64_t largest_program = 20000;
 
 void check_size(const Scene& scene) {
     const std::uint64_t count = expanded_node_count(scene);
@@ -91,14 +90,17 @@ TracePrograms::Cache::const_iterator TracePrograms::find(const std::string& key)
 bool TracePrograms::has(const Scene& scene, Tier tier, Id tuned) const {
     if (expanded_node_count(scene) > largest_program) return false;
     const std::vector<Scene> parts = scene_parts(scene);
-    return std::all_of(parts.begin(), parts.end(),
-                       [&](const Scene& part) { return find(generate(part, tier, tuned).key) != cache_.end(); });
+    const bool by_distance = marches_by_distance(scene);
+    return std::all_of(parts.begin(), parts.end(), [&](const Scene& part) {
+        return find(generate(part, tier, tuned, by_distance).key) != cache_.end();
+    });
 }
 
 void TracePrograms::compile_one(const Scene& scene, Tier tier, Id tuned) {
     check_size(scene);
+    const bool by_distance = marches_by_distance(scene);
     for (const Scene& part : scene_parts(scene)) {
-        const GeneratedScene generated = generate(part, tier, tuned);
+        const GeneratedScene generated = generate(part, tier, tuned, by_distance);
         if (find(generated.key) != cache_.end()) continue;
         compile_milliseconds_ = 0.0;
         compile(part, generated);
@@ -110,8 +112,9 @@ void TracePrograms::select(const Scene& scene, Tier tier, Id tuned) {
     check_size(scene);
     std::vector<Part> parts;
     bool compiled = false;
+    const bool by_distance = marches_by_distance(scene);
     for (const Scene& scene_part : scene_parts(scene)) {
-        const GeneratedScene generated = generate(scene_part, tier, tuned);
+        const GeneratedScene generated = generate(scene_part, tier, tuned, by_distance);
         const auto found = find(generated.key);
         if (found == cache_.end()) {
             if (!std::exchange(compiled, true)) compile_milliseconds_ = 0.0;

@@ -8,11 +8,15 @@ namespace {
 
 /// Nodes of a part: at least so many before a new one may begin, on average so many more, and at most so many unless
 /// they can not be split. A part of 32 takes 0.2 s to compile on llvmpipe, 0.09 s of that however few they are.
-constexpr std::uint64_t least = 8, usual = 24, most = 48;
+struct Sizes {
+    std::uint64_t least, usual, most;
+};
+constexpr Sizes small_parts{8, 24, 48}, large_parts{32, 96, 192};
+constexpr std::uint64_t few_nodes = 1500;
 
 /// Whether a new part may begin here: decided by the id, so that what is inserted or removed elsewhere changes nothing.
 /// The more nodes the more likely.
-bool may_begin(Id id, std::uint64_t count) { return (id * 2654435769u >> 16) % usual < count; }
+bool may_begin(Id id, std::uint64_t count, std::uint64_t usual) { return (id * 2654435769u >> 16) % usual < count; }
 
 bool is_hard_union(const Node& node) {
     const KindInfo& kind = info(node.kind);
@@ -22,7 +26,10 @@ bool is_hard_union(const Node& node) {
 
 class Partition {
 public:
-    explicit Partition(const Scene& scene) : counts_(scene) { visit(scene.root); }
+    explicit Partition(const Scene& scene)
+        : counts_(scene), sizes_(counts_.of(scene.root) > few_nodes ? large_parts : small_parts) {
+        visit(scene.root);
+    }
 
     std::vector<std::set<Id>> parts;  ///< the topmost nodes of each
 
@@ -30,11 +37,12 @@ private:
     void visit(const Node& node) {
         if (node.hidden) return;
         const std::uint64_t count = counts_.of(node);
-        if (count > least && is_hard_union(node)) {
+        if (count > sizes_.least && is_hard_union(node)) {
             for (const Node& child : node.children) visit(child);
             return;
         }
-        if (parts.empty() || (size_ >= least && may_begin(node.id, count)) || size_ + count > most) {
+        if (parts.empty() || (size_ >= sizes_.least && may_begin(node.id, count, sizes_.usual)) ||
+            size_ + count > sizes_.most) {
             parts.emplace_back();
             size_ = 0;
         }
@@ -43,6 +51,7 @@ private:
     }
 
     ExpandedCounts counts_;
+    Sizes sizes_;
     std::uint64_t size_ = 0;  ///< of the last part
 };
 
