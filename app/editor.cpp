@@ -92,9 +92,9 @@ EditorOutput Editor::frame(const EditorInput& input, const MeasureResults& measu
                      measured, [&](CommandId id) { return enabled(id); });
     ui_.hand_in = false;
     carry_out(result);
-    files_.draw(ui_);
-    if (document_.generation() != shown_document_) show_new_document();
     shortcut_list(ui_);
+    files_.draw(ui_);  // the last: to Dear ImGui no window may appear after a question that does
+    if (document_.generation() != shown_document_) show_new_document();
     held_ = ImGui::IsAnyItemActive();
     interacting_ = (held_ && gesture_moves_ && ImGui::IsAnyMouseDown()) || now_ < wheel_until_;
 
