@@ -88,7 +88,7 @@ constexpr std::pair<const char*, const char*> mouse[] = {
     {"Right drag with W A S D, Q E", "Fly; the wheel sets the speed"},
     {"Drag a handle", "Move, turn or scale; Ctrl in steps, Escape takes it back"},
     {"Drag a number", "Change it; Shift finer, Ctrl coarser, Escape leaves it as it was"},
-    {"Double-click or Ctrl-click a number", "Type it"},
+    {"Double-click or Ctrl-click a number", "Type it, or arithmetic as 2*(1+.5)"},
     {"Right-click a value", "Back to its default"},
     {"Drag a node in the tree", "Re-order, or move into another"},
     {"Right-click a node", "What can be done with it"},

@@ -1,7 +1,7 @@
 // What the menus and the keyboard can ask for, in one table: menus, shortcuts and the list on F1 read it.
 #pragma once
 
-#include "app/window.h"
+#include "app/input_queue.h"
 #include "ui/ui.h"
 
 #include <glm/vec3.hpp>

@@ -155,6 +155,7 @@ void FileDialog::draw_path_bar(Ui& ui, EditorState& state) {
         ImGui::SameLine(0.0f, gap);
         ImGui::PushID(folders[i].c_str());
         if (ImGui::Button(label(folders[i]).c_str())) wanted = folders[i];
+        ui.report.item("dialog/folder", folders[i].string());
         ImGui::PopID();
     }
     if (!wanted.empty()) enter(wanted);
@@ -305,7 +306,10 @@ std::optional<fs::path> FileDialog::draw(Ui& ui, EditorState& state) {
     constexpr const char* titles[] = {"Open scene###file_dialog", "Save scene as###file_dialog",
                                       "Export picture###file_dialog"};
     const char* title = titles[static_cast<int>(mode_)];
-    if (std::exchange(request_, false)) ImGui::OpenPopup(title);
+    if (request_ && may_open_dialog()) {
+        request_ = false;
+        ImGui::OpenPopup(title);
+    }
     const ImVec2 centre = ImGui::GetMainViewport()->GetCenter();
     ImGui::SetNextWindowPos(centre, ImGuiCond_Appearing, {0.5f, 0.5f});
     const ImVec2 room = ImGui::GetMainViewport()->WorkSize;
@@ -313,7 +317,7 @@ std::optional<fs::path> FileDialog::draw(Ui& ui, EditorState& state) {
     ImGui::SetNextWindowSize({std::min(ui.theme.px(760.0f), room.x), std::min(ui.theme.px(520.0f), room.y)},
                              ImGuiCond_Appearing);
     if (!ImGui::BeginPopupModal(title, nullptr, ImGuiWindowFlags_NoSavedSettings)) {
-        focus_ = false;
+        focus_ = request_;
         return std::nullopt;
     }
     keyboard();

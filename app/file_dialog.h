@@ -12,6 +12,10 @@
 
 namespace farfield {
 
+/// Not while a node is dragged: what Dear ImGui shows beside the mouse then may not appear above a new dialog, which would
+/// end the program.
+inline bool may_open_dialog() { return !ImGui::GetDragDropPayload(); }
+
 class FileDialog {
 public:
     enum class Mode { open, save, picture };

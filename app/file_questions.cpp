@@ -13,9 +13,10 @@
 namespace farfield {
 namespace {
 
-/// Shows the dialog as soon as no other is open.
+/// Shows the dialog as soon as no other is open and nothing is being dragged.
 void open_question(const char* title) {
-    if (!ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel)) ImGui::OpenPopup(title);
+    if (may_open_dialog() && !ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel))
+        ImGui::OpenPopup(title);
 }
 
 /// Begins the dialog while it `asks`; then EndPopup is to be called.

@@ -5,7 +5,7 @@
 #include "app/commands.h"
 #include "app/compare.h"
 #include "app/contact_sheet.h"
-#include "app/editor.h"
+#include "app/editor_window.h"
 #include "renderer/gl.h"
 #include "renderer/image.h"
 #include "sdf/fields.h"

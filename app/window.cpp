@@ -215,8 +215,11 @@ float Window::density() const {
 
 bool Window::is_down(int key) const { return glfwGetKey(window_, key) == GLFW_PRESS; }
 
-bool Window::should_close() const { return glfwWindowShouldClose(window_); }
-void Window::keep_open() { glfwSetWindowShouldClose(window_, GLFW_FALSE); }
+bool Window::take_close() {
+    const bool asked = glfwWindowShouldClose(window_);
+    glfwSetWindowShouldClose(window_, GLFW_FALSE);
+    return asked;
+}
 
 std::vector<std::filesystem::path> Window::take_dropped_files() { return std::exchange(input_.dropped, {}); }
 

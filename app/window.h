@@ -44,8 +44,7 @@ public:
     glm::vec2 pixels_per_unit() const;  ///< framebuffer pixels for each screen coordinate
     Frame frame() const;
     float density() const;  ///< of the display: 1 at 96 dpi
-    bool should_close() const;
-    void keep_open();  ///< answers a request to close with no
+    bool take_close();      ///< whether it was asked to close since the last call
 
     bool is_down(int key) const;                                 ///< one of GLFW's keys, by its place on the keyboard
     const std::vector<KeyPress>& keys() const { return keys_; }  ///< that went down before this frame

@@ -55,7 +55,15 @@ TEST(TypedNumber, IsReadAsPeopleTypeIt) {
     EXPECT_EQ(typed_number("-16.6°", "°"), -16.6f);
     EXPECT_EQ(typed_number("0,25", "m"), 0.25f);
     EXPECT_EQ(typed_number("1e-3", ""), 1e-3f);
-    for (const char* text : {"", " ", "m", "1.5 x", "1,000.5", "+-1", "nan", "inf", "1e99"})
+    EXPECT_EQ(typed_number("2*0.75", ""), 1.5f);
+    EXPECT_EQ(typed_number("1 + 2 * 3 - 4 / 8 m", "m"), 6.5f);
+    EXPECT_EQ(typed_number("-(1,5 - 3) * (2+(1))", ""), 4.5f);
+    EXPECT_EQ(typed_number("360/7 °", "°"), 360.0f / 7.0f);
+    EXPECT_EQ(typed_number("2*-3", ""), -6.0f);
+    EXPECT_EQ(typed_number("1e2-1", ""), 99.0f);
+    for (const char* text :
+         {"",    " ",   "m",  "1.5 x", "1,000.5", "1,000,5", "+-1", "nan",         "inf", "1e99", "1/0",
+          "0/0", "1 2", "2*", "(1",    "1)",      "()",      "*2",  "1e200*1e200", "--1", "0x10"})
         EXPECT_EQ(typed_number(text, "m"), std::nullopt) << text;
 }
 

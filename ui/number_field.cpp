@@ -70,6 +70,75 @@ double value_at(const SliderRange& range, double position) {
     return range.logarithmic ? low * std::pow(high / low, t) : low + t * (high - low);
 }
 
+/// What somebody types for a number: sums, differences, products and quotients of numbers, with parentheses.
+class Arithmetic {
+public:
+    /// Half the world types a comma, but not for thousands in numbers that have a point too.
+    explicit Arithmetic(std::string_view text) : text_(text) {
+        if (text.find('.') == std::string_view::npos) std::replace(text_.begin(), text_.end(), ',', '.');
+    }
+
+    std::optional<float> result() {
+        const auto value = static_cast<float>(sum());
+        if (failed_ || at_ != text_.size() || !std::isfinite(value)) return std::nullopt;
+        return value;
+    }
+
+private:
+    /// Takes the next character where it is `wanted`.
+    bool take(char wanted) {
+        while (at_ < text_.size() && text_[at_] == ' ') ++at_;
+        const bool found = at_ < text_.size() && text_[at_] == wanted;
+        if (found) ++at_;
+        return found;
+    }
+    double sum() {
+        double value = product();
+        for (;;) {
+            if (take('+'))
+                value += product();
+            else if (take('-'))
+                value -= product();
+            else
+                return value;
+        }
+    }
+    double product() {
+        double value = factor();
+        for (;;) {
+            if (take('*'))
+                value *= factor();
+            else if (take('/'))
+                value /= factor();
+            else
+                return value;
+        }
+    }
+    double factor() {
+        if (take('-')) return -operand();
+        take('+');
+        return operand();
+    }
+    double operand() {
+        if (take('(')) {
+            const double value = sum();
+            failed_ |= !take(')');
+            return value;
+        }
+        double value = 0.0;
+        const char *from = text_.data() + at_, *end = text_.data() + text_.size();
+        const bool begins = from != end && (*from == '.' || (*from >= '0' && *from <= '9'));  // neither inf nor nan
+        const auto [to, error] = std::from_chars(from, end, value);
+        failed_ |= !begins || error != std::errc();
+        at_ += static_cast<std::size_t>(to - from);
+        return value;
+    }
+
+    std::string text_;
+    std::size_t at_ = 0;
+    bool failed_ = false;
+};
+
 /// Typing is over: true when it came to another number.
 bool finish_typing(NumberEntry& entry, const Parameter& parameter, float& value, std::string_view unit) {
     entry.typed = 0;
@@ -124,16 +193,7 @@ std::optional<float> typed_number(std::string_view text, std::string_view unit) 
     trim();
     if (!unit.empty() && text.ends_with(unit)) text.remove_suffix(unit.size());
     trim();
-    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
-    std::string number(text);
-    // Half the world types a comma.
-    if (number.find('.') == std::string::npos && std::count(number.begin(), number.end(), ',') == 1)
-        number[number.find(',')] = '.';
-    float value = 0.0f;
-    const char* end = number.data() + number.size();
-    const auto [at, error] = std::from_chars(number.data(), end, value);
-    if (error != std::errc() || at != end || !std::isfinite(value)) return std::nullopt;
-    return value;
+    return Arithmetic(text).result();
 }
 
 bool number_field(Ui& ui, const char* label, const Parameter& parameter, float& value, std::string_view unit,

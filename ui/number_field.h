@@ -22,7 +22,7 @@ struct SliderRange {
 bool number_field(Ui& ui, const char* label, const Parameter& parameter, float& value, std::string_view unit,
                   const SliderRange* range, std::string* full = nullptr);
 
-/// What someone typed, with or without the unit; nothing when that is no number.
+/// What someone typed, a number or arithmetic, with or without the unit; nothing when that is neither.
 std::optional<float> typed_number(std::string_view text, std::string_view unit);
 
 }  // namespace farfield

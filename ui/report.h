@@ -33,11 +33,16 @@ struct ReportState {
 
 class Report {
 public:
+    struct Rectangle {
+        int x, y, width, height;  ///< window pixels
+    };
     /// Empty path: off.
     explicit Report(std::filesystem::path file = {}) : file_(std::move(file)) {}
 
     bool on() const { return !file_.empty(); }
     void begin_frame() { controls_.clear(); }
+    /// Those of the last frame, by name.
+    const std::map<std::string, Rectangle>& controls() const { return controls_; }
     /// Records the rectangle of the last ImGui item as "PANEL/NAME", if its middle is not scrolled out of sight.
     void item(std::string_view panel, std::string_view name);
     void rectangle(std::string_view panel, std::string_view name, ImVec2 low, ImVec2 high);
@@ -46,9 +51,6 @@ public:
     void write(const ReportState& state, double now);
 
 private:
-    struct Rectangle {
-        int x, y, width, height;
-    };
     std::filesystem::path file_;
     std::map<std::string, Rectangle> controls_;
     std::string written_;
