@@ -3,6 +3,7 @@
 #include "renderer/metrics.h"
 #include "tests/stability/case.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -174,7 +175,7 @@ Figures coaxial_disc(Stage& stage, const Point& p) {
     Node disc = shape(NodeKind::capped_cylinder, {number(r), number(half)});
     disc.material = scene.add_material(glm::vec3(0.0f), glm::vec3(1.0f));
     scene.add(disc, {0.0f, static_cast<float>(h) + half, 0.0f});
-    look_at_patch(scene, {0.0f, 0.0f, 0.0f}, {0.05f, 0.05f, 0.01f});
+    look_at_patch(scene, {0.0f, 0.0f, 0.0f}, glm::vec3(0.4f, 0.4f, 0.08f) * static_cast<float>(std::min(h, 0.2)));
     return irradiance_error(stage, scene, r * r / (r * r + h * h));
 }
 

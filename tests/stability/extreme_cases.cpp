@@ -221,7 +221,7 @@ Figures survives(Stage& stage, const Extreme& extreme) {
     const auto shows = [&](const Scene& scene) {
         const Pictures pictures = stage.render(scene, tiny, 1);
         for (const Image& image : pictures.result) broken += count_invalid(image) > 0;
-        broken += !(mean(pictures.result[1]) > 0.0);
+        return mean(pictures.result[1]);
     };
     try {
         shows(extreme.scene());
@@ -231,7 +231,7 @@ Figures survives(Stage& stage, const Extreme& extreme) {
         broken += std::string(error.what()).empty();
     }
     std::replace(note.begin(), note.end(), '\n', ' ');
-    shows(stand());
+    broken += !(shows(stand()) > 0.0);
     return shared(broken, note);
 }
 

@@ -176,7 +176,7 @@ std::string script(const std::vector<Outcome>& outcomes) {
         "else {{ set terminal pngcairo size {1},{2} font \"Inter,8\" background \"white\" }}\n"
         "set output \"sweeps.\".type\nset multiplot layout {3},{4}\nset logscale y\nset format y \"%g\"\n"
         "set grid lc rgb \"#e4e4e4\" lt 1 lw 1\nset border 3 lc rgb \"#606060\"\nset tics nomirror scale 0.5\n"
-        "set key font \",7\" samplen 1 opaque\nset lmargin 9\nset rmargin 2\nset offsets 0,0,0.1,0.1\n{5}"
+        "set key font \",7\" samplen 1 opaque\nset lmargin 9\nset rmargin 2\n{5}"
         "unset multiplot\nunset output\n}}\n",
         data, 330 * columns, 250 * rows, rows, columns, panels);
 }
