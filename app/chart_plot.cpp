@@ -1,14 +1,11 @@
 #include "app/chart_plot.h"
 
+#include "app/gnuplot.h"
+
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <stdexcept>
 
 namespace farfield {
 namespace {
@@ -22,15 +19,6 @@ constexpr Marker markers[] = {{Varied::blur_levels, "other blur levels", 1},
                               {Varied::ao_radius, "other AO radii", 2},
                               {Varied::scale, "smaller picture", 8},
                               {Varied::minimum_step, "longer minimum step", 4}};
-
-std::string quoted(const std::string& text) {
-    std::string result = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') result += '\\';
-        result += c;
-    }
-    return result + '"';
-}
 
 /// 1, 2 and 5 times every power of ten within the range.
 std::string tics(double low, double high) {
@@ -187,23 +175,6 @@ std::string chart_script(const std::vector<ChartScene>& scenes, const std::strin
     return script + "unset multiplot\nunset output\n}\n";
 }
 
-void plot_chart(const std::filesystem::path& folder) {
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
-    std::string program = "gnuplot", script = "chart.gp";
-    char* arguments[] = {program.data(), script.data(), nullptr};
-    pid_t process = 0;
-    const int error = posix_spawnp(&process, program.c_str(), &actions, nullptr, arguments, environ);
-    posix_spawn_file_actions_destroy(&actions);
-    int status = 0;
-    if (error == 0 && waitpid(process, &status, 0) == process && WIFEXITED(status) && WEXITSTATUS(status) == 0) return;
-    if (error == ENOENT || (error == 0 && WIFEXITED(status) && WEXITSTATUS(status) == 127))
-        throw std::runtime_error(fmt::format(
-            "gnuplot, which draws the chart, is not installed (apt-get install gnuplot-nox); {} has the numbers, and "
-            "\"gnuplot chart.gp\" there draws them later",
-            folder.string()));
-    throw std::runtime_error(fmt::format("gnuplot failed on {}", (folder / "chart.gp").string()));
-}
+void plot_chart(const std::filesystem::path& folder) { run_gnuplot(folder, "chart.gp"); }
 
 }  // namespace farfield

@@ -23,7 +23,8 @@ struct FrameRecord {
     glm::vec3 sky_zenith;
     float minimum_step;
     glm::ivec2 image_size;
-    glm::ivec2 padding;
+    std::int32_t step_limit;
+    std::int32_t padding;
 };
 static_assert(sizeof(FrameRecord) == 112);
 

@@ -53,6 +53,7 @@ FrameRecord frame_record(const Scene& scene, const FrameOptions& options, int fr
     record.sky_zenith = scene.sky.zenith;
     record.minimum_step = std::log2(options.minimum_step);
     record.image_size = options.size;
+    record.step_limit = options.step_limit;
     return record;
 }
 

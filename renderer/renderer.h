@@ -32,6 +32,7 @@ struct FrameOptions {
     bool measure_bounces = false;   ///< what each adds; automatic bounces otherwise go on with what was measured last
     bool counting = false;          ///< count rays and evaluations; costs a little
     float minimum_step = 1.0f;      ///< of the tracer, times the usual: how far off hits may be
+    int step_limit = 0;             ///< evaluations of the distance for each ray; 0: the tracer's own limit
     bool occlusion = false;         ///< trace ambient occlusion even where neither method nor view shows it
     std::size_t batch =
         Batch::capacity;  ///< pixels for each step, at most Batch::capacity; changes no bit of the picture

@@ -1,57 +1,18 @@
 // The tracer with its safe steps against a march in steps of 1e-4 m that looks at nothing but the field's sign.
-#include "renderer/records.h"
-#include "renderer/trace_program.h"
-#include "sdf/codegen.h"
 #include "sdf/edit.h"
 #include "sdf/evaluate.h"
 #include "tests/gl_test.h"
 #include "tests/test_support.h"
+#include "tests/tiny_steps.h"
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
 
 namespace farfield {
 namespace {
-
-/// As in shaders/common.glsl.
-struct RayRecord {
-    glm::vec3 origin;
-    float reach;
-    glm::vec3 direction;
-    float footprint;
-};
-static_assert(sizeof(RayRecord) == ray_bytes);
-struct HitRecord {
-    float distance;
-    std::uint32_t normal, material, steps;
-};
-static_assert(sizeof(HitRecord) == hit_bytes);
-
-constexpr float smallest_step = 1e-4f;
-constexpr float footprint = 2e-5f;  // the tracer's tolerance, for each metre: about 1e-4 m at these distances
-constexpr int width = 64;
-
-/// Rays of a camera that looks at the box from a corner.
-std::vector<RayRecord> camera_rays(const Box& box) {
-    const glm::vec3 target = box.centre();
-    const float radius = 0.5f * glm::length(box.size());
-    const glm::vec3 origin = target + 2.5f * radius * glm::normalize(glm::vec3(1.0f, 0.7f, 1.3f));
-    const glm::vec3 forward = glm::normalize(target - origin);
-    const glm::vec3 right = glm::normalize(glm::cross(forward, glm::vec3(0.0f, 1.0f, 0.0f)));
-    const glm::vec3 up = glm::cross(right, forward);
-    std::vector<RayRecord> rays;
-    for (int y = 0; y < width; ++y)
-        for (int x = 0; x < width; ++x) {
-            const glm::vec2 at = (glm::vec2(x, y) + 0.5f) / (0.5f * width) - 1.0f;
-            rays.push_back(
-                {origin, 5.0f * radius, glm::normalize(forward + 0.4f * (at.x * right + at.y * up)), footprint});
-        }
-    return rays;
-}
 
 /// Rays from places in the box where there is nothing, all ways: as light travels.
 std::vector<RayRecord> inner_rays(const Box& box, const FieldEvaluator& field, std::mt19937& random) {
@@ -61,72 +22,15 @@ std::vector<RayRecord> inner_rays(const Box& box, const FieldEvaluator& field, s
         const glm::vec3 origin = box.centre() + 0.5f * box.size() * glm::vec3(uniform(), uniform(), uniform());
         const glm::vec3 direction(uniform(), uniform(), uniform());
         if (field.distance(origin) > 0.01f && glm::length(direction) > 0.1f)
-            rays.push_back({origin, 2.0f * glm::length(box.size()), glm::normalize(direction), footprint});
+            rays.push_back({origin, 2.0f * glm::length(box.size()), glm::normalize(direction), fine_footprint});
     }
     return rays;
 }
 
-/// Where each ray meets the surface, -1 where it does not.
-std::vector<float> traced(const Scene& scene, Tier tier, const std::vector<RayRecord>& rays) {
-    TracePrograms tracer;
-    gl::Buffer in("rays"), out("hits"), counters("counters");
-    in.upload(std::span(rays));
-    out.resize(rays.size() * sizeof(HitRecord));
-    counters.resize(sizeof(CounterRecord));
-    in.bind_storage(binding::rays);
-    out.bind_storage(binding::hits);
-    counters.bind_storage(binding::counters);
-    tracer.select(scene, tier);
-    tracer.trace(rays.size(), false, false);
-    std::vector<HitRecord> hits(rays.size());
-    out.read(hits.data(), hits.size() * sizeof(HitRecord));
-    std::vector<float> distances;
-    for (const HitRecord& hit : hits) distances.push_back(hit.distance);
-    return distances;
-}
-
-/// The first change of sign in steps of 1e-4 m, made finer by bisection.
-std::vector<float> marched(const Scene& scene, const std::vector<RayRecord>& rays) {
-    const GeneratedScene generated = generate(scene, Tier::specialised);
-    const std::string source = fmt::format(
-        "#version 430 core\n"
-        "layout(local_size_x = 64) in;\n"
-        "{}"
-        "struct Ray {{ vec3 origin; float reach; vec3 direction; float footprint; }};\n"
-        "layout(std430, binding = 0) readonly buffer Rays {{ Ray rays[]; }};\n"
-        "layout(std430, binding = 1) writeonly buffer Results {{ float results[]; }};\n"
-        "uniform vec3 scene_low, scene_high;\n"
-        "void main() {{\n"
-        "    uint i = gl_GlobalInvocationID.x;\n"
-        "    if (i >= uint(rays.length())) return;\n"
-        "    vec3 a = (scene_low - rays[i].origin) / rays[i].direction, b = (scene_high - rays[i].origin) / "
-        "rays[i].direction;\n"
-        "    vec3 enter = min(a, b), leave = max(a, b);\n"
-        "    float t = max(max(enter.x, max(enter.y, enter.z)) - {step}, 0.0);\n"
-        "    float end = min(leave.x, min(leave.y, leave.z)) + {step};\n"
-        "    float low = t, high = -1.0;\n"
-        "    int halvings = 0;\n"
-        "    while (t < end && halvings < 8) {{\n"
-        "        bool inside = scene_distance(rays[i].origin + t * rays[i].direction) < 0.0;\n"
-        "        if (inside) high = t; else low = t;\n"
-        "        if (high >= 0.0) ++halvings;\n"
-        "        t = high < 0.0 ? t + {step} : 0.5 * (low + high);\n"
-        "    }}\n"
-        "    results[i] = high;\n"
-        "}}\n",
-        generated.text, fmt::arg("step", smallest_step));
-    const gl::Program program("march", source);
-    gl::Buffer in("rays"), out("results");
-    in.upload(std::span(rays));
-    out.resize(rays.size() * sizeof(float));
-    in.bind_storage(0);
-    out.bind_storage(1);
-    program.set("scene_low", generated.bounds.low);
-    program.set("scene_high", generated.bounds.high);
-    program.run(rays.size());
-    std::vector<float> results(rays.size());
-    out.read(results.data(), results.size() * sizeof(float));
-    return results;
+std::vector<float> distances(const std::vector<HitRecord>& hits) {
+    std::vector<float> all;
+    for (const HitRecord& hit : hits) all.push_back(hit.distance);
+    return all;
 }
 
 /// Whether there is surface within a millimetre of p, a twentieth of a pixel here: a point inside. The tracer stops
@@ -159,10 +63,10 @@ protected:
         std::vector<RayRecord> rays = camera_rays(box);
         const std::vector<RayRecord> inner = inner_rays(box, field, random);
         rays.insert(rays.end(), inner.begin(), inner.end());
-        const std::vector<float> expected = marched(scene, rays), found = traced(scene, tier, rays);
+        const std::vector<float> expected = marched(scene, rays), found = distances(traced(scene, tier, rays));
         int hits = 0, holes = 0, early = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            const float tolerance = 2.0f * footprint * rays[i].reach;
+            const float tolerance = 2.0f * fine_footprint * rays[i].reach;
             hits += expected[i] >= 0.0f;
             if (expected[i] >= 0.0f && (found[i] < 0.0f || found[i] > expected[i] + tolerance)) ++holes;
             if (found[i] >= 0.0f && (expected[i] < 0.0f || found[i] < expected[i] - tolerance) &&

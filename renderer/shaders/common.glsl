@@ -17,6 +17,7 @@ layout(std140, binding = 0) uniform Frame {
     vec3 sky_zenith;
     float minimum_step;     // hits may be 2^this times as far off as usual
     ivec2 image_size;       // pixels
+    int step_limit;         // distance evaluations for each ray; 0: the tracer's own limit
 };
 
 struct Ray {

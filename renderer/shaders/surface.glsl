@@ -6,6 +6,9 @@ layout(local_size_x = 64) in;
 uniform uint ray_count;
 uniform uint part;  // of the scene; the others' hits are left alone
 
+// Of the gradient around a surface, where the field is that of a distance.
+const float least_steepness = flat_field ? 0.05 : 0.8;
+
 void main() {
     load_parameters();
     uint i = gl_GlobalInvocationID.x;
@@ -16,16 +19,25 @@ void main() {
     float spacing = float_spacing(ray.origin);
     float apart = max(hit_tolerance(ray.footprint * exp2(minimum_step), spacing, t), 4.0 * spacing + 1e-4);
     vec3 gradient = vec3(0.0);
-    uint material;
-    int k = 0;
+    uint material, front;
+    int k = 0, last = 4;
     do {
         // Corners of a tetrahedron: (1,1,1), (1,-1,-1), (-1,1,-1), (-1,-1,1). They bring the material along, so that the
         // scene stands in the program once.
-        vec3 e = vec3(k < 2 ? 1.0 : -1.0, (k & 1) == 0 ? 1.0 : -1.0, k == 0 || k == 3 ? 1.0 : -1.0);
+        vec3 e = vec3((k & 2) == 0 ? 1.0 : -1.0, (k & 1) == 0 ? 1.0 : -1.0, (k & 3) == 0 || (k & 3) == 3 ? 1.0 : -1.0);
         gradient += e * scene_surface(p + e * apart, material);
-    } while (++k < 4);
+        ++k;
+        // Around a skin thinner than that, slopes of both sides cancel out: once more, on the side that the ray came from.
+        bool both_sides = k == 4 && (length(gradient) < least_steepness * 4.0 * apart || dot(gradient, ray.direction) > 0.0);
+        if (k == 4) front = material;
+        if (both_sides) {
+            last = 8;
+            gradient = vec3(0.0);
+            p -= 8.0 * apart * ray.direction;
+        }
+    } while (k < last);
     float steepness = dot(gradient, gradient);
     vec3 normal = steepness > 0.0 ? gradient * inversesqrt(steepness) : -ray.direction;
     hits[i].normal = pack_normal(normal);
-    hits[i].material = material;
+    hits[i].material = front;
 }

@@ -26,7 +26,7 @@ uniform vec3 scene_high;
 // shapes would grow fat: there the tolerance shrinks with the field's slope along the ray. That costs 4 to 7 % and is left
 // out elsewhere; it needs more steps, too.
 const float least_slope = flat_field ? 0.1 : 1.0;
-const int step_limit = flat_field ? 512 : 256;
+const int usual_limit = flat_field ? 512 : 256;
 const float beta = 0.5;
 const float near_enough = 2e-3;  // radians: one to three pixels of a camera ray
 
@@ -36,6 +36,7 @@ void main() {
     uint end = min(ray_count, (gl_WorkGroupID.x + 1u) * 64u * rays_each);
     if (i >= end) return;
 
+    int most_steps = step_limit > 0 ? step_limit : usual_limit;
     Ray ray;
     float footprint, spacing, reach, t, radius, free, stride, slope;
     int steps;
@@ -89,14 +90,14 @@ void main() {
                     slope = -1.0;
                 }
                 stride = max(free, 2.0 * max(radius, 0.0) / (1.0 - slope));
-                marching = !found && t + free < reach && steps < step_limit;
+                marching = !found && t + free < reach && steps < most_steps;
             }
             --left;
         } while (marching && left > 0);
         if (!marching && i < end) {
             // Out of steps: a ray that grazes a surface has met it, any other has met nothing. Where it stands now decides;
             // the nearest miss of the whole way would draw fringes around what a ray to the horizon passes.
-            bool exhausted = steps >= step_limit && !found && t + free < reach;
+            bool exhausted = steps >= most_steps && !found && t + free < reach;
             found = found || (exhausted && radius < near_enough * t);
             if (found) t += max(radius, 0.0);
             Hit hit = part > 0u ? hits[i] : Hit(-1.0, 0u, 0u, 0u);
