@@ -85,6 +85,7 @@ EditorOutput Editor::frame(const EditorInput& input, const MeasureResults& measu
     keyboard(input.keys);
     ui_.audit.refresh(document_.snapshot(), document_.revision(), now_);
 
+    ui_.frame_milliseconds = input.frame_milliseconds;
     ui_.trust = &trust_;
     ui_.in_code = false;
     const LayoutResult result =
@@ -236,6 +237,7 @@ void Editor::write_report(double now) {
     ui_.report.write({.statistics = picture_.statistics,
                       .revision = document_.revision(),
                       .pictures = pictures_,
+                      .ui_milliseconds = ui_.frame_milliseconds,
                       .saved = document_.saved(),
                       .file = document_.file().string(),
                       .error = files_.error().empty() ? picture_.error : files_.error(),

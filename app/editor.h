@@ -24,6 +24,7 @@ struct EditorInput {
     glm::vec3 fly{0.0f};                         ///< as ViewportInput has it
     std::vector<std::filesystem::path> dropped;  ///< files, on the window
     bool close = false;                          ///< the window was asked to close
+    double frame_milliseconds = 0.0;             ///< that 95 % of the last frames took at most
 };
 
 struct EditorOutput {

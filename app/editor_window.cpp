@@ -3,21 +3,28 @@
 #include "app/editor.h"
 #include "app/measuring.h"
 #include "app/window.h"
+#include "renderer/context.h"
 #include "sdf/scene_file.h"
 
 #include <imgui.h>
 
+#include <algorithm>
 #include <chrono>
 #include <optional>
+#include <thread>
 #include <utility>
+#include <vector>
 
 namespace farfield {
 namespace {
 
 constexpr double slow_tick = 0.1;          // seconds between looks at the renderer while nothing happens
 constexpr double quick_tick = 1.0 / 60.0;  // and while a hand moves something or pictures come fast
-constexpr double attention = 1.0;          // after input: tooltips wait for the mouse to rest
-constexpr int settling_frames = 3;         // ImGui needs a frame or two to lay out what has just appeared
+constexpr double shortest_frame = 1.0 / 60.0,
+                 shortest_busy_frame = 1.0 / 30.0;  // the latter where pictures need the processor
+constexpr double attention = 1.0;                   // after input: tooltips wait for the mouse to rest
+constexpr std::size_t timed_frames = 256;           // whose times are remembered
+constexpr int settling_frames = 3;                  // ImGui needs a frame or two to lay out what has just appeared
 
 double seconds() {
     using namespace std::chrono;
@@ -45,7 +52,9 @@ public:
         while (!editor_.quits()) {
             const bool moving = editor_.interacting();
             const bool lively = redraws > 0 || moving || editor_.picture().statistics.frames_per_second > 10.0;
+            rest_until(last_frame_ + (moving && on_cpu_ ? shortest_busy_frame : shortest_frame));
             if (window_.wait(lively ? quick_tick : slow_tick)) redraws = settling_frames, last_input = seconds();
+            const double start = seconds();
             const bool attentive = seconds() - last_input < attention || moving || ImGui::GetIO().WantTextInput;
             const bool first = editor_.picture().texture == 0;
             const bool pictured = editor_.show(render_.acquire());
@@ -54,9 +63,18 @@ public:
             const bool measured = measuring_.refresh(document.scene(), document.revision());
             const bool refreshed = editor_.refresh(seconds());
             while (const auto written = render_.written()) editor_.exported(*written);
-            if (pictured || measured || refreshed || redraws > 0 || attentive) frame();
+            const bool drawn = pictured || measured || refreshed || redraws > 0 || attentive;
+            if (drawn) {
+                last_frame_ = start;
+                render_.give_way(true);
+                frame();
+                render_.give_way(false);
+            }
             if (redraws > 0) --redraws;
             editor_.write_report(seconds());
+            if (!drawn) continue;
+            times_.push_back(1e3 * (seconds() - start));
+            if (times_.size() > timed_frames) times_.erase(times_.begin());
         }
         editor_.end();
         remember_state();
@@ -71,7 +89,8 @@ private:
                                              .keys = window_.keys(),
                                              .fly = flight(),
                                              .dropped = window_.take_dropped_files(),
-                                             .close = window_.take_close()},
+                                             .close = window_.take_close(),
+                                             .frame_milliseconds = percentile_95()},
                                             measuring_.results());
         if (output.measure == MeasureWish::start)
             measuring_.start(window_.make_shared_context(), editor_.shown(), editor_.picture_size());
@@ -90,6 +109,19 @@ private:
         return {axis('D', 'A'), axis('E', 'Q'), axis('W', 'S')};
     }
 
+    static void rest_until(double time) {
+        const std::chrono::duration<double> left(time - seconds());
+        if (left.count() > 0.0) std::this_thread::sleep_for(left);
+    }
+
+    double percentile_95() const {
+        if (times_.empty()) return 0.0;
+        std::vector<double> sorted = times_;
+        const auto place = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() * 95 / 100);
+        std::nth_element(sorted.begin(), place, sorted.end());
+        return *place;
+    }
+
     void remember_state() {
         const Window::Frame frame = window_.frame();
         state_.size = frame.size;
@@ -105,6 +137,9 @@ private:
     RenderThread render_;
     Editor editor_;
     Measuring measuring_;
+    const bool on_cpu_ = renders_on_cpu();
+    double last_frame_ = 0.0;
+    std::vector<double> times_;  ///< milliseconds between two waits for input
 };
 
 }  // namespace

@@ -27,9 +27,11 @@ constexpr auto rest = std::chrono::milliseconds(250);
 constexpr double patience = 2.5;
 /// What a picture may take while a hand moves something, and the first one after an edit, which often had to wait for a
 /// program.
-constexpr double interactive_milliseconds = 80.0, first_milliseconds = 40.0;
-/// What one step may take, so that an edit is seen soon.
-constexpr double step_milliseconds = 25.0;
+constexpr double interactive_milliseconds = 50.0, first_milliseconds = 40.0;
+/// What one step may take, so that an edit is seen soon, and a frame of the user interface as well.
+constexpr double step_milliseconds = 10.0;
+/// So long at most a step waits until the user interface has drawn a frame.
+constexpr auto longest_draw = std::chrono::milliseconds(50);
 /// A picture of an unfinished frame is shown after so long, and no sooner than three times what showing takes.
 constexpr auto longest_wait = std::chrono::milliseconds(150);
 /// Scenes with more nodes get no program with every number live: its compilation takes seconds on llvmpipe (27 nodes
@@ -54,6 +56,8 @@ struct RenderThread::State {
     Clock::time_point edit_time;  ///< when the scene of the latest request was first asked for
     double edit_milliseconds = 0.0;
     bool stop = false;
+    bool drawing = false;       ///< the caller draws a frame
+    unsigned drawn = 0;         ///< frames of the caller
     std::array<Slot, 3> slots;  ///< one held by the caller, one ready, one to draw into
     int ready = -1;
     int held = -1;
@@ -88,6 +92,7 @@ struct RenderThread::State {
     bool compile_in_background();
     void compile_one(Tier tier, Id tuned);
     void work();
+    void wait_while_drawing();
     bool outdated();
     void show();
     void write_pictures();
@@ -139,6 +144,15 @@ RenderedPicture RenderThread::acquire() {
     picture.statistics.edit_milliseconds = state_->edit_milliseconds;
     picture.error = state_->error;
     return picture;
+}
+
+void RenderThread::give_way(bool drawing) {
+    {
+        const std::lock_guard lock(state_->mutex);
+        state_->drawing = drawing;
+        state_->drawn += !drawing;
+    }
+    if (!drawing) state_->wake.notify_one();
 }
 
 void RenderThread::write(PictureWish wish) {
@@ -213,7 +227,7 @@ void RenderThread::State::take_request() {
     gave_up = prepared = false;
     if (!current.scene || current.size.x <= 0 || current.size.y <= 0) return;
     const Scene& scene = *current.scene;
-    preview = !renderer->keeps_samples(scene, options) && quick_size() != current.size;
+    preview = !current.interacting && !renderer->keeps_samples(scene, options) && quick_size() != current.size;
     // Whatever is there already, the fastest first; a structure not met before has to be compiled. So has the program
     // for a hand that was quicker than the rest it should have been made in: it serves all further moves.
     if (!renderer->needs_compile(scene, Tier::specialised))
@@ -335,10 +349,18 @@ void RenderThread::State::write_pictures() {
     }
 }
 
+void RenderThread::State::wait_while_drawing() {
+    if (!renders_on_cpu()) return;
+    std::unique_lock lock(mutex);
+    // For one frame at most: the next may have begun.
+    wake.wait_for(lock, longest_draw, [&, before = drawn] { return stop || !drawing || drawn != before; });
+}
+
 void RenderThread::State::work() {
     if (!has_work()) return;
     if (!finished()) {
         if (compile_in_background()) return;
+        wait_while_drawing();
         if (renderer->step()) {
             const Statistics& s = renderer->statistics();
             const double work_done = static_cast<double>(options.size.x) * options.size.y *

@@ -60,6 +60,10 @@ public:
     /// fence.
     RenderedPicture acquire();
 
+    /// Between true and false the caller draws: where the processor renders, no new step begins meanwhile, so that a
+    /// frame of the user interface does not share it.
+    void give_way(bool drawing);
+
     /// Never waits. A small picture is dropped when another scene comes before it.
     void write(PictureWish wish);
     /// What has become of the wishes, in turn. Nothing is said of small pictures.

@@ -14,8 +14,9 @@
 namespace farfield {
 namespace {
 
-constexpr std::size_t cache_size = 512;  // of parts
-constexpr int generated_file = 2;        // its number in #line directives
+constexpr std::size_t cache_size = 512;      // of parts
+constexpr std::size_t remembered_codes = 6;  // of scenes: two of each program that an edit asks for
+constexpr int generated_file = 2;            // its number in #line directives
 
 constexpr std::uint64_t largest_program = 20000;
 
@@ -87,23 +88,47 @@ TracePrograms::Cache::const_iterator TracePrograms::find(const std::string& key)
     return std::find_if(cache_.begin(), cache_.end(), [&](const auto& entry) { return entry->key == key; });
 }
 
+TracePrograms::Codes TracePrograms::codes(const Scene& scene, Tier tier, Id tuned) const {
+    const bool by_distance = marches_by_distance(scene);
+    const auto same_content = [](const Scene& a, const Scene& b) {
+        return a.root == b.root && a.definitions == b.definitions &&
+               std::equal(a.materials.begin(), a.materials.end(), b.materials.begin(), b.materials.end(),
+                          [](const Material& x, const Material& y) { return x.id == y.id; });
+    };
+    Codes codes;
+    for (Scene& part : scene_parts(scene)) {
+        const Id tuned_here = find_node(part, tuned) ? tuned : 0;
+        std::shared_ptr<const Code> code;
+        for (const Codes& others : codes_)
+            for (const auto& other : others)
+                if (!code && other->tier == tier && other->tuned == tuned_here && other->by_distance == by_distance &&
+                    same_content(other->part, part))
+                    code = other;
+        if (!code) {
+            GeneratedScene generated = generate(part, tier, tuned_here, by_distance);
+            code = std::make_shared<const Code>(
+                Code{std::move(part), tier, tuned_here, by_distance, std::move(generated)});
+        }
+        codes.push_back(std::move(code));
+    }
+    codes_.insert(codes_.begin(), codes);
+    if (codes_.size() > remembered_codes) codes_.pop_back();
+    return codes;
+}
+
 bool TracePrograms::has(const Scene& scene, Tier tier, Id tuned) const {
     if (expanded_node_count(scene) > largest_program) return false;
-    const std::vector<Scene> parts = scene_parts(scene);
-    const bool by_distance = marches_by_distance(scene);
-    return std::all_of(parts.begin(), parts.end(), [&](const Scene& part) {
-        return find(generate(part, tier, tuned, by_distance).key) != cache_.end();
-    });
+    const Codes all = codes(scene, tier, tuned);
+    return std::all_of(all.begin(), all.end(),
+                       [&](const auto& code) { return find(code->generated.key) != cache_.end(); });
 }
 
 void TracePrograms::compile_one(const Scene& scene, Tier tier, Id tuned) {
     check_size(scene);
-    const bool by_distance = marches_by_distance(scene);
-    for (const Scene& part : scene_parts(scene)) {
-        const GeneratedScene generated = generate(part, tier, tuned, by_distance);
-        if (find(generated.key) != cache_.end()) continue;
+    for (const auto& code : codes(scene, tier, tuned)) {
+        if (find(code->generated.key) != cache_.end()) continue;
         compile_milliseconds_ = 0.0;
-        compile(part, generated);
+        compile(*code);
         return;
     }
 }
@@ -112,13 +137,12 @@ void TracePrograms::select(const Scene& scene, Tier tier, Id tuned) {
     check_size(scene);
     std::vector<Part> parts;
     bool compiled = false;
-    const bool by_distance = marches_by_distance(scene);
-    for (const Scene& scene_part : scene_parts(scene)) {
-        const GeneratedScene generated = generate(scene_part, tier, tuned, by_distance);
+    for (const auto& code : codes(scene, tier, tuned)) {
+        const GeneratedScene& generated = code->generated;
         const auto found = find(generated.key);
         if (found == cache_.end()) {
             if (!std::exchange(compiled, true)) compile_milliseconds_ = 0.0;
-            compile(scene_part, generated);
+            compile(*code);
         } else {
             cache_.splice(cache_.begin(), cache_, found);
         }
@@ -132,7 +156,8 @@ void TracePrograms::select(const Scene& scene, Tier tier, Id tuned) {
     current_ = std::move(parts);
 }
 
-void TracePrograms::compile(const Scene& part, const GeneratedScene& generated) {
+void TracePrograms::compile(const Code& code) {
+    const GeneratedScene& generated = code.generated;
     GLint largest_block = 0;
     glGetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &largest_block);
     if (generated.parameters.size() * sizeof(float) > static_cast<std::size_t>(largest_block))
@@ -144,7 +169,7 @@ void TracePrograms::compile(const Scene& part, const GeneratedScene& generated) 
         entry.march = gl::Program("the scene's trace kernel", scene_kernel_source("trace.glsl", generated));
         entry.surface = gl::Program("the scene's surface kernel", scene_kernel_source("surface.glsl", generated));
     } catch (const ShaderError& error) {
-        throw ShaderError(explain(part, generated, error.what()));
+        throw ShaderError(explain(code.part, generated, error.what()));
     }
     // Drivers compile compute shaders at their first dispatch: have that now, with no ray to trace.
     gl::Buffer parameters("parameters");
@@ -158,7 +183,7 @@ void TracePrograms::compile(const Scene& part, const GeneratedScene& generated) 
     compile_milliseconds_ +=
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
     ++compiles_;
-    structures_.insert(std::hash<std::string>()(generate(part, Tier::live).key));
+    structures_.insert(std::hash<std::string>()(generate(code.part, Tier::live).key));
     cache_.push_front(std::make_shared<const Entry>(std::move(entry)));
     if (cache_.size() > cache_size) cache_.pop_back();
 }

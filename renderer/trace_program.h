@@ -45,8 +45,19 @@ private:
         gl::Buffer parameters{"parameters"};
         Box bounds;
     };
+    /// Code of a part, kept as long as scenes have that part, because writing it all anew for each move of a hand takes
+    /// milliseconds.
+    struct Code {
+        Scene part;
+        Tier tier;
+        Id tuned;  ///< 0 where it is elsewhere
+        bool by_distance;
+        GeneratedScene generated;
+    };
+    using Codes = std::vector<std::shared_ptr<const Code>>;
+    Codes codes(const Scene& scene, Tier tier, Id tuned) const;
     Cache::const_iterator find(const std::string& key) const;
-    void compile(const Scene& part, const GeneratedScene& generated);
+    void compile(const Code& code);
 
     /// See trace.glsl.
     struct Schedule {
@@ -55,7 +66,8 @@ private:
     };
     Schedule schedule_;
 
-    Cache cache_;  ///< most recently used first
+    mutable std::vector<Codes> codes_;  ///< of the last calls
+    Cache cache_;                       ///< most recently used first
     std::vector<Part> current_;
     std::set<std::size_t> structures_;  ///< hashes of the live code of every scene that was compiled
     int compiles_ = 0;

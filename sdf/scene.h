@@ -46,6 +46,7 @@ struct Node {
     std::shared_ptr<const CustomCode> code;  ///< of a custom node; without it, it shows nothing
     bool hidden = false;                     ///< counts as not there, with all below it
     bool locked = false;                     ///< neither picked, moved nor deleted, with all below it
+    friend bool operator==(const Node&, const Node&) = default;
 };
 
 /// Lambert reflection plus a normalised Phong highlight on direct light.

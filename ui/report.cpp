@@ -50,6 +50,7 @@ void Report::write(const ReportState& state, double now) {
     json["frames"] = s.frames;
     json["samples"] = s.samples;
     json["frame_milliseconds"] = s.frame_milliseconds;
+    json["ui_milliseconds"] = state.ui_milliseconds;
     json["edit_milliseconds"] = s.edit_milliseconds;
     for (const auto& [name, r] : controls_) json["controls"][name] = {r.x, r.y, r.width, r.height};
     // Names come from files and may hold anything: invalid UTF-8 is replaced.

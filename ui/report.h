@@ -17,8 +17,9 @@ namespace farfield {
 
 struct ReportState {
     Statistics statistics;
-    std::uint64_t revision = 0;  ///< of the document
-    std::uint64_t pictures = 0;  ///< shown so far
+    std::uint64_t revision = 0;    ///< of the document
+    std::uint64_t pictures = 0;    ///< shown so far
+    double ui_milliseconds = 0.0;  ///< as Ui::frame_milliseconds
     bool saved = true;
     std::string file;    ///< of the document, empty before the first save
     std::string error;   ///< what the error bar shows

@@ -56,6 +56,7 @@ void statistics_overlay(Ui& ui, const Statistics& s, ImVec2 corner, ImVec2 room)
         if (s.rays > 0) line(ui, "Rays", count(s.rays), true);
         if (s.exhausted_rays > 0) line(ui, "   out of steps", count(s.exhausted_rays));
         line(ui, "Edit to picture", duration(s.edit_milliseconds), true);
+        line(ui, "Interface, 95 %", duration(ui.frame_milliseconds));
         line(ui, "Compile", duration(s.compile_milliseconds), true);
         line(ui, "   for structure", fmt::format("{}", s.structural_compiles));
         line(ui, "   specialised", fmt::format("{}{}", s.specialisations, s.specialised ? "  (in use)" : ""));

@@ -58,6 +58,7 @@ struct Ui {
     View view = View::result;
     PictureTools tools;
     bool show_statistics = true;
+    double frame_milliseconds = 0.0;  ///< that 95 % of the last frames of the user interface took at most
     bool show_shortcuts = false;
     bool show_code = false;
     bool show_measure = false;
