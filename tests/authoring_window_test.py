@@ -26,14 +26,16 @@ class Author:
         check(report["step"] == before + 1, f"{what} is one step, not {report['step'] - before}")
         check(report["error"] == "", f"{what} goes well, not: {report['error']}")
 
+    def ctrl_click(self, control):
+        self.editor.point_at(control)
+        self.editor.display.xdotool("keydown", "ctrl", "sleep", 0.1, "click", 1, "sleep", 0.1, "keyup", "ctrl")
+
     def select(self, *names):
-        xdotool = self.editor.display.xdotool
         for i, name in enumerate(names):
-            self.editor.point_at(f"tree/{name}")
             if i == 0:
-                xdotool("click", 1)
+                self.editor.click(f"tree/{name}")
             else:
-                xdotool("keydown", "ctrl", "sleep", 0.1, "click", 1, "sleep", 0.1, "keyup", "ctrl")
+                self.ctrl_click(f"tree/{name}")
             self.editor.wait(f"{name} selected", lambda r: r["selected"] == list(names[:i + 1]))
 
     def palette(self, search, kind):
@@ -61,7 +63,7 @@ class Author:
 
     def number(self, control, text):
         def type_it():
-            self.editor.click(f"inspector/{control}", times=2)
+            self.ctrl_click(f"inspector/{control}")
             self.editor.enter(text)
         self.one_step(f"{text} typed into {control}", type_it)
 
