@@ -238,7 +238,7 @@ void Editor::write_report(double now) {
                       .pictures = pictures_,
                       .saved = document_.saved(),
                       .file = document_.file().string(),
-                      .error = files_.error().empty() ? picture_.error : files_.error(),
+                      .error = error(),
                       .notice = files_.notice(),
                       .selection = selection_name(scene, ui_.selection),
                       .selected = selected_names(scene, ui_.selected()),
