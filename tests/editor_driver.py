@@ -24,7 +24,7 @@ def check(condition, message):
 
 
 class Display:
-    """A virtual screen, gone at the end of the `with` block."""
+    """A virtual screen, gone at the end of the `with` block. Its keys do not repeat: on a busy machine any press is long."""
 
     def __init__(self, size="1100x680"):
         self.size = size
@@ -32,7 +32,7 @@ class Display:
     def __enter__(self):
         reader, writer = os.pipe()
         self.process = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(writer), "-screen", "0", self.size + "x24", "-nolisten", "tcp"],
+            ["Xvfb", "-displayfd", str(writer), "-screen", "0", self.size + "x24", "-nolisten", "tcp", "-r"],
             pass_fds=[writer], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(writer)
         with os.fdopen(reader) as pipe:
