@@ -240,7 +240,7 @@ void Editor::write_report(double now) {
                       .ui_milliseconds = ui_.frame_milliseconds,
                       .saved = document_.saved(),
                       .file = document_.file().string(),
-                      .error = files_.error().empty() ? picture_.error : files_.error(),
+                      .error = error(),
                       .notice = files_.notice(),
                       .selection = selection_name(scene, ui_.selection),
                       .selected = selected_names(scene, ui_.selected()),

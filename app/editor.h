@@ -55,6 +55,8 @@ public:
     /// What is rendered, and in how many pixels.
     std::shared_ptr<const Scene> shown() { return document_.snapshot(); }
     glm::ivec2 picture_size() const { return size_; }
+    /// What the bar over the picture says; empty when nothing is wrong.
+    const std::string& error() const { return files_.error().empty() ? picture_.error : files_.error(); }
     const RenderedPicture& picture() const { return picture_; }
     const Ui& ui() const { return ui_; }
     bool interacting() const { return interacting_; }  ///< a hand moves something

@@ -74,11 +74,11 @@ void status_line(const Ui& ui, ImVec2 low, ImVec2 size, const Document& document
     std::string right = fmt::format("{} {}   {} {}", nodes, nodes == 1 ? "node" : "nodes", picture.statistics.samples,
                                     picture.statistics.samples == 1 ? "sample" : "samples");
     const float width = font->CalcTextSizeA(font->FontSize, 1e6f, 0.0f, right.c_str()).x;
-    const std::vector<std::string> steps = document.history().steps();
+    const std::size_t step = document.history().position();
     const std::string left = !notice.empty() ? notice
-                             : steps.empty()
+                             : step == 0
                                  ? "Click: select    Drag: orbit    Shift + drag: pan    Wheel: zoom    F1: all keys"
-                                 : "Last step: " + steps.back();
+                                 : "Last step: " + document.history().description(step);
     draw.PushClipRect(low, {low.x + size.x - width - 2.0f * pad, low.y + size.y}, true);
     draw.AddText(font, font->FontSize, {low.x + pad, y}, notice.empty() ? ui.theme.dim : ui.theme.text, left.c_str());
     draw.PopClipRect();

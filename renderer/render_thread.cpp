@@ -86,6 +86,8 @@ struct RenderThread::State {
     bool gave_up = false;   ///< background compilation failed for this scene: do not try again
 
     void run();
+    bool render();
+    bool wait_to_try_again();
     bool wait_for_work();
     void take_request();
     void update(Tier tier, Id tuned);
@@ -172,14 +174,15 @@ std::optional<WrittenPicture> RenderThread::written() {
 }
 
 void RenderThread::State::run() {
+    bool working = false;
     try {
         context->make_current();
-        renderer.emplace();
-        while (wait_for_work()) work();
+        working = true;
     } catch (const std::exception& failure) {
         const std::lock_guard lock(mutex);
-        error = std::string("rendering has stopped: ") + failure.what();
+        error = std::string("nothing can be rendered: ") + failure.what();
     }
+    while (working && !render()) working = wait_to_try_again();
     // Everything of OpenGL goes while the context is current.
     renderer.reset();
     for (Slot& slot : slots) {
@@ -187,6 +190,30 @@ void RenderThread::State::run() {
         slot = {};
     }
     context->release();
+}
+
+/// Until the end, or a failure of the driver: then false, and the last picture is all there is.
+bool RenderThread::State::render() {
+    try {
+        renderer.emplace();
+        while (wait_for_work()) work();
+        return true;
+    } catch (const std::exception& failure) {
+        const std::lock_guard lock(mutex);
+        error = std::string("rendering has failed, the next change tries again: ") + failure.what();
+    }
+    renderer.reset();
+    current = {};
+    options = {};
+    preview = unshown = false;
+    return false;
+}
+
+/// What has failed would fail again: another request is waited for. False when the thread shall end.
+bool RenderThread::State::wait_to_try_again() {
+    std::unique_lock lock(mutex);
+    wake.wait(lock, [&] { return stop || next; });
+    return !stop;
 }
 
 /// Takes the next request if there is one; sleeps when there is nothing to do. False when the thread shall end.

@@ -40,15 +40,15 @@ KindInfo make_combination(NodeKind kind, const char* key, const char* label, con
 
 void add_combinations(std::vector<KindInfo>& t) {
     using K = NodeKind;
-    t.push_back(make_combination(K::union_, "union", "Union", "All of the children together", true, {blend},
-                                 FUNCTION(combine, smooth_union), FUNCTION(combine, union_weight), hard_union,
-                                 quarter_radius));
-    t.push_back(make_combination(K::intersect, "intersect", "Intersect", "What all children have in common", false,
-                                 {blend}, FUNCTION(combine, smooth_intersect), FUNCTION(combine, intersect_weight),
-                                 hard_intersect));
-    t.push_back(make_combination(K::subtract, "subtract", "Subtract", "The first child without the others", false,
-                                 {blend}, FUNCTION(combine, smooth_subtract), FUNCTION(combine, subtract_weight),
-                                 hard_subtract));
+    t.push_back(make_combination(K::union_, "union", "Union", "All of the children together, smooth with a radius",
+                                 true, {blend}, FUNCTION(combine, smooth_union), FUNCTION(combine, union_weight),
+                                 hard_union, quarter_radius));
+    t.push_back(make_combination(
+        K::intersect, "intersect", "Intersect", "What all children have in common, smooth with a radius", false,
+        {blend}, FUNCTION(combine, smooth_intersect), FUNCTION(combine, intersect_weight), hard_intersect));
+    t.push_back(make_combination(
+        K::subtract, "subtract", "Subtract", "The first child without the others, smooth with a radius", false, {blend},
+        FUNCTION(combine, smooth_subtract), FUNCTION(combine, subtract_weight), hard_subtract));
     t.push_back(make_combination(K::xor_, "xor", "Exclusive or", "What belongs to an odd number of children", false, {},
                                  FUNCTION(combine, exclusive_or), FUNCTION(combine, exclusive_or_weight),
                                  never_hard(Gather::any)));

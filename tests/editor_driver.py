@@ -24,12 +24,15 @@ def check(condition, message):
 
 
 class Display:
-    """A virtual screen, gone at the end of the `with` block."""
+    """A virtual screen, gone at the end of the `with` block. Its keys do not repeat: on a busy machine any press is long."""
+
+    def __init__(self, size="1100x680"):
+        self.size = size
 
     def __enter__(self):
         reader, writer = os.pipe()
         self.process = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(writer), "-screen", "0", "1100x680x24", "-nolisten", "tcp"],
+            ["Xvfb", "-displayfd", str(writer), "-screen", "0", self.size + "x24", "-nolisten", "tcp", "-r"],
             pass_fds=[writer], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         os.close(writer)
         with os.fdopen(reader) as pipe:
@@ -89,9 +92,9 @@ class Editor:
         self.seen.append(report["samples"])
         return report
 
-    def wait(self, what, condition):
+    def wait(self, what, condition, patience=PATIENCE):
         """Waits until the report satisfies `condition`, and returns it."""
-        end = time.monotonic() + PATIENCE
+        end = time.monotonic() + patience
         report = None
         while time.monotonic() < end:
             report = self.report()
@@ -148,7 +151,7 @@ class Editor:
     def type(self, text):
         """Into the field that takes text, once there is one."""
         self.wait("a text field", lambda r: r["typing"])
-        self.display.xdotool("type", "--delay", 30, text)
+        self.display.xdotool("type", "--delay", 30, "--", text)
 
     def enter(self, text):
         self.type(text)

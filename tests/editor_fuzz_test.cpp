@@ -86,7 +86,7 @@ public:
     /// Some random events and what they lead to.
     void act() {
         input_.close = hand_.chance(2000);
-        if (hand_.chance(150)) input_.size = {800 + hand_.number() % 1700, 500 + hand_.number() % 1000}, ++others_;
+        if (hand_.chance(150)) resize(), ++others_;
         if (hand_.chance(400)) input_.dropped.push_back(sandbox_.any(hand_)), ++others_;
         if (hand_.chance(60)) ImGui::SetClipboardText(clipboard().c_str()), ++others_;
         if (hand_.chance(150)) other_program(), ++others_;
@@ -213,6 +213,11 @@ private:
         ++picture_.statistics.frames;
         picture_.error = hand_.chance(10) ? "sphere: cannot be compiled\n0:1: syntax error" : "";
         editor_.show(picture_);
+    }
+
+    void resize() {
+        input_.size = {800 + hand_.number() % 1700, 500 + hand_.number() % 1000};
+        input_.pixels_per_unit = hand_.chance(2) ? glm::vec2(1.0f) : glm::vec2(2.0f);
     }
 
     std::string clipboard() {

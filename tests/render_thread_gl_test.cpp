@@ -1,0 +1,107 @@
+// What the render thread does when a scene or the driver fails: the last good picture stays, it says why, and goes on
+// with the next change.
+#include "renderer/render_thread.h"
+#include "sdf/scene_file.h"
+#include "tests/gl_test.h"
+#include "tests/test_support.h"
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <string_view>
+#include <thread>
+
+namespace farfield {
+namespace {
+
+/// What the driver answers for the thread's textures of pictures while it has no memory left.
+std::atomic<bool> no_memory{false};
+thread_local bool failing = false;
+PFNGLOBJECTLABELPROC label_of_driver = nullptr;
+PFNGLGETERRORPROC error_of_driver = nullptr;
+
+void label(GLenum kind, GLuint name, GLsizei length, const GLchar* text) {
+    failing = no_memory && text == std::string_view("picture");
+    label_of_driver(kind, name, length, text);
+}
+GLenum error() {
+    const GLenum found = error_of_driver();
+    return std::exchange(failing, false) ? GL_OUT_OF_MEMORY : found;
+}
+
+class RenderThreadTest : public GlTest {
+protected:
+    void SetUp() override {
+        GlTest::SetUp();
+        thread_.emplace(make_headless_context(ContextKind::automatic));
+    }
+    void TearDown() override {
+        thread_.reset();
+        GlTest::TearDown();
+    }
+
+    void submit(const Scene& scene, glm::ivec2 size = {32, 32}) {
+        thread_->submit({.scene = std::make_shared<const Scene>(scene), .size = size, .max_frames = 2});
+    }
+    /// The first picture that satisfies the condition.
+    RenderedPicture wait(const std::function<bool(const RenderedPicture&)>& condition) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        RenderedPicture picture;
+        while (!condition(picture = thread_->acquire()) && std::chrono::steady_clock::now() < end)
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        EXPECT_TRUE(condition(picture)) << picture.serial << " " << picture.error;
+        return picture;
+    }
+
+    std::optional<RenderThread> thread_;
+    const Scene scene_ = load_scene(std::filesystem::path(FARFIELD_SCENES) / "csg_part.json");
+};
+
+bool good(const RenderedPicture& picture) { return picture.texture != 0 && picture.error.empty(); }
+bool failed(const RenderedPicture& picture) { return !picture.error.empty(); }
+
+TEST_F(RenderThreadTest, ARefusedSceneLeavesTheLastPictureAndTheNextSceneShows) {
+    submit(scene_);
+    const RenderedPicture first = wait(good);
+    Scene large = scene_;
+    for (int i = 0; i < 30'000; ++i) {
+        Node node = make_node(NodeKind::sphere);
+        node.id = large.new_id();
+        large.root.children.push_back(node);
+    }
+    submit(large);
+    const RenderedPicture refused = wait(failed);
+    EXPECT_NE(refused.error.find("nodes"), std::string::npos) << refused.error;
+    EXPECT_NE(refused.texture, 0u);
+    EXPECT_GE(refused.serial, first.serial);
+    Scene next = scene_;
+    next.camera.position.x += 0.5f;
+    submit(next);
+    wait([&](const RenderedPicture& p) { return good(p) && p.serial > refused.serial; });
+}
+
+TEST_F(RenderThreadTest, AFailureOfTheDriverLeavesTheLastPictureAndTheNextChangeTriesAgain) {
+    submit(scene_);
+    wait([](const RenderedPicture& p) { return good(p) && p.statistics.frames == 2; });
+    const RenderedPicture last = wait(good);
+    // The thread's context has loaded the functions by now.
+    label_of_driver = std::exchange(glad_glObjectLabel, label);
+    error_of_driver = std::exchange(glad_glGetError, error);
+    no_memory = true;
+    for (const int width : {40, 48}) {  // another size takes other textures
+        submit(scene_, {width, 32});
+        const RenderedPicture kept = wait(failed);
+        EXPECT_NE(kept.error.find("cannot make texture"), std::string::npos) << kept.error;
+        EXPECT_EQ(kept.texture, last.texture);
+        EXPECT_EQ(kept.size, last.size);
+    }
+    no_memory = false;
+    submit(scene_, {56, 32});
+    wait([](const RenderedPicture& p) { return good(p) && p.size == glm::ivec2(56, 32); });
+    thread_.reset();
+    glad_glObjectLabel = label_of_driver;
+    glad_glGetError = error_of_driver;
+}
+
+}  // namespace
+}  // namespace farfield
