@@ -16,6 +16,15 @@ namespace {
 constexpr int frames_until_rest = 4096;
 constexpr double wheel_rest = 0.4;  // seconds: turns of the wheel closer than this are one gesture
 
+/// Whether what is to be seen is another scene, so that a hand which goes on wants quick pictures. Settings are no
+/// object in the scene that could be followed quicker at a lower resolution, which would discard the samples that most
+/// of them keep.
+bool changes_picture(const Edit& edit) {
+    if (const auto* set = std::get_if<SetValue>(&edit))
+        return set->object.type != ObjectType::settings && set->object.type != ObjectType::bookmark;
+    return !std::holds_alternative<MoveBookmark>(edit);
+}
+
 /// Looking around is no work on the scene, though undo covers it.
 bool moves_camera(const Edit& edit) {
     const auto* set = std::get_if<SetValue>(&edit);
@@ -37,6 +46,8 @@ std::string selection_name(const Scene& scene, ObjectRef selection) {
             return "Sky";
         case ObjectType::camera:
             return "Camera";
+        case ObjectType::bookmark:
+            return "";  // is never selected
         case ObjectType::settings:
             return "Settings";
     }
@@ -149,11 +160,8 @@ void Editor::carry_out(const Edits& edits, unsigned gesture) {
         const std::vector<Id> results = document_.apply(edits, gesture);
         gesture_edited_ = true;
         if (!std::all_of(edits.begin(), edits.end(), moves_camera)) files_.edit_succeeded();
-        // Settings are no object in the scene that could be followed quicker at a lower resolution, which would
-        // discard the samples that most of them keep.
         for (const Edit& edit : edits) {
-            const auto* set = std::get_if<SetValue>(&edit);
-            gesture_moves_ |= !set || set->object.type != ObjectType::settings;
+            gesture_moves_ |= changes_picture(edit);
             if (const auto* moved = std::get_if<MoveNode>(&edit)) ui_.reveal = moved->node;
         }
         if (!values_only) ui_.select(selection_after(before, document_.scene(), edits, results, selected));
@@ -206,7 +214,8 @@ void Editor::show_new_document() {
 bool Editor::keyboard_changes_hands() const {
     const ImGuiContext& g = *ImGui::GetCurrentContext();
     const bool moving = g.NavMoveSubmitted && (g.NavMoveFlags & ImGuiNavMoveFlags_Tabbing);
-    return ui_.focus_name || ui_.open_add || ui_.tree_search.focus || files_.wants_keyboard() || moving;
+    return ui_.focus_name || ui_.open_add || ui_.tree_search.focus || ui_.bookmark_entry.focus ||
+           files_.wants_keyboard() || moving;
 }
 
 std::optional<RenderRequest> Editor::request(const EditorInput& input, glm::vec2 picture_size, bool measuring) {

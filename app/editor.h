@@ -79,6 +79,7 @@ private:
     void paste();
     Box selection_box() const;
     void frame_box(const Box& box);
+    void go_to_bookmark(std::size_t index);
 
     EditorState& state_;
     CodeTrust trust_{CodeTrust::user_file()};

@@ -64,6 +64,7 @@ constexpr Command commands[] = {
     {CommandId::frame_selection, "View", "frame_selection", "Frame selection", 'F', plain, "F", true},
     {CommandId::frame_all, "View", "frame_all", "Frame all", GLFW_KEY_HOME, plain, "Home, Shift+F"},
     {CommandId::reset_camera, "View", "reset_camera", "Reset camera", GLFW_KEY_HOME, shift, "Shift+Home"},
+    {CommandId::bookmark, "View", "bookmark", "Bookmark this view", 'B', ctrl, "Ctrl+B", true},
     {CommandId::front, "View", "front", "From the front", GLFW_KEY_KP_1, plain, "Numpad 1", true},
     {CommandId::back, "View", "back", "From the back", GLFW_KEY_KP_1, ctrl, "Ctrl+Numpad 1"},
     {CommandId::right, "View", "right", "From the right", GLFW_KEY_KP_3, plain, "Numpad 3"},
@@ -149,6 +150,11 @@ std::optional<View> view_for(const KeyPress& press) {
     return views()[static_cast<std::size_t>(index)].view;
 }
 
+std::optional<std::size_t> bookmark_for(const KeyPress& press) {
+    if (!press.ctrl || press.alt || press.shift || press.key < '1' || press.key > '9') return std::nullopt;
+    return static_cast<std::size_t>(press.key - '1');
+}
+
 bool choose_tool(PictureTools& tools, CommandId id) {
     switch (id) {
         case CommandId::select:
@@ -224,6 +230,7 @@ void shortcut_list(Ui& ui) {
     for (const Command& command : commands)
         if (command.key != 0) lines.emplace_back(command.key_text, command.label);
     lines.emplace_back("1 ... 9", "Views, from Result to Step count");
+    lines.emplace_back("Ctrl+1 ... Ctrl+9", "Go to a bookmark of the camera");
     // As many columns as the window's height asks for.
     const float line = ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().CellPadding.y;
     const float room = std::max(0.8f * ImGui::GetMainViewport()->WorkSize.y, line);

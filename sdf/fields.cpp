@@ -138,7 +138,8 @@ bool applies(const Light& light, std::string_view key) {
 
 namespace {
 
-/// Calls `visit(object)` with the addressed node, material, light, sky, camera or settings. False for an unknown id.
+/// Calls `visit(object)` with the addressed node, material, light, sky, camera or settings; with a bookmark's
+/// camera for that. False for an unknown id.
 template <class S, class Visitor>
 bool visit_object(S& scene, ObjectRef ref, Visitor visit) {
     switch (ref.type) {
@@ -157,6 +158,10 @@ bool visit_object(S& scene, ObjectRef ref, Visitor visit) {
             return visit(scene.sky), true;
         case ObjectType::camera:
             return visit(scene.camera), true;
+        case ObjectType::bookmark:
+            for (auto& bookmark : scene.bookmarks)
+                if (bookmark.id == ref.id) return visit(bookmark.camera), true;
+            return false;
         case ObjectType::settings:
             return visit(scene.settings), true;
     }

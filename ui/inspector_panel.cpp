@@ -1,5 +1,6 @@
 #include "ui/inspector_panel.h"
 
+#include "ui/bookmark_list.h"
 #include "ui/kind_menu.h"
 #include "ui/tree_edits.h"
 #include "ui/tree_panel.h"
@@ -342,6 +343,7 @@ Edits inspector_panel(Ui& ui, const Scene& scene) {
     } else if (selection.type == ObjectType::sky || selection.type == ObjectType::camera) {
         section(ui, selection.type == ObjectType::sky ? "Sky radiance" : "Camera");
         value_rows(ui, "inspector", scene, selection, edits);
+        if (selection.type == ObjectType::camera) bookmark_list(ui, scene, edits);
     } else {
         ImGui::PushTextWrapPos(0.0f);
         ImGui::TextDisabled(

@@ -37,21 +37,6 @@ void row(Ui& ui, const char* group, ObjectRef object, const std::string& name, c
     ImGui::PopID();
 }
 
-/// A heading with a button at its right end; true when that was pressed.
-bool heading(Ui& ui, const char* title, const char* name, const char* tip) {
-    section(ui, title);
-    const float side = ui.theme.px(20.0f);
-    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - side);
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.0f, 0.0f});
-    ImGui::PushID(name);
-    const bool pressed = ImGui::Button("+", {side, ImGui::GetTextLineHeight()});
-    ImGui::PopID();
-    ImGui::PopStyleVar();
-    ui.report.item("objects", name);
-    tooltip(ui, tip);
-    return pressed;
-}
-
 }  // namespace
 
 Edits objects_panel(Ui& ui, const Scene& scene) {
@@ -63,7 +48,7 @@ Edits objects_panel(Ui& ui, const Scene& scene) {
     const ImVec4 sky = display_color(scene.sky.zenith);
     row(ui, "world", {ObjectType::sky, 0}, "Sky", &sky, "");
     row(ui, "world", {ObjectType::camera, 0}, "Camera", nullptr, "");
-    if (heading(ui, "Lights", "add_light", "Adds a point light")) edits.push_back(AddLight{});
+    if (heading(ui, "Lights", "objects", "add_light", "Adds a point light")) edits.push_back(AddLight{});
     for (const Light& light : scene.lights) {
         const ImVec4 color = display_color(light.intensity);
         row(ui, "lights", {ObjectType::light, light.id}, light.name, &color,
@@ -74,7 +59,7 @@ Edits objects_panel(Ui& ui, const Scene& scene) {
         ImGui::TextDisabled("None. Sky and emission still light the scene.");
         ImGui::PopTextWrapPos();
     }
-    if (heading(ui, "Materials", "add_material", "Adds a material")) edits.push_back(AddMaterial{});
+    if (heading(ui, "Materials", "objects", "add_material", "Adds a material")) edits.push_back(AddMaterial{});
     for (const Material& material : scene.materials) {
         const bool emits = material.emission != glm::vec3(0.0f);
         const ImVec4 color = display_color(emits ? material.emission : material.albedo);

@@ -15,6 +15,8 @@ bool exists(const Scene& scene, ObjectRef object) {
             return find_material(scene, object.id) != nullptr;
         case ObjectType::light:
             return find_light(scene, object.id) != nullptr;
+        case ObjectType::bookmark:
+            return find_bookmark(scene, object.id) != nullptr;
         default:
             return true;
     }
@@ -65,6 +67,21 @@ void section(const Ui& ui, const char* title) {
     const float y = (low.y + high.y) * 0.5f, x = high.x + ui.theme.px(8.0f);
     const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
     if (end > x) ImGui::GetWindowDrawList()->AddLine({x, y}, {end, y}, ImGui::GetColorU32(ImGuiCol_Separator));
+}
+
+bool heading(Ui& ui, const char* title, const char* panel, const char* name, std::string_view tip,
+             std::string_view hint) {
+    section(ui, title);
+    const float side = ui.theme.px(20.0f);
+    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - side);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.0f, 0.0f});
+    ImGui::PushID(name);
+    const bool pressed = ImGui::Button("+", {side, ImGui::GetTextLineHeight()});
+    ImGui::PopID();
+    ImGui::PopStyleVar();
+    ui.report.item(panel, name);
+    tooltip(ui, tip, hint);
+    return pressed;
 }
 
 void tooltip(const Ui& ui, std::string_view text, std::string_view hint) {
