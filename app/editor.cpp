@@ -1,5 +1,6 @@
 #include "app/editor.h"
 
+#include "app/split_view.h"
 #include "app/thumbnails.h"
 #include "ui/tree_edits.h"
 
@@ -68,6 +69,7 @@ Editor::Editor(EditorState& state, const Theme& theme, Report report)
     ui_.show_statistics = state_.statistics;
     ui_.show_code = state_.code;
     ui_.show_measure = state_.measure;
+    ui_.tools.split = state_.split;
     show_new_document();
 }
 
@@ -125,6 +127,7 @@ void Editor::end() {
     state_.statistics = ui_.show_statistics;
     state_.code = ui_.show_code;
     state_.measure = ui_.show_measure;
+    state_.split = ui_.tools.split;
 }
 
 /// A gesture lasts while one thing is held or typed into; every other frame may begin a new one.
@@ -226,13 +229,16 @@ std::optional<RenderRequest> Editor::request(const EditorInput& input, glm::vec2
     const Id tuned = ui_.selection.type == ObjectType::node ? ui_.selection.id : 0;
     // What is measured is the processor's time: the picture rests as soon as it shows what there is.
     const int frames = measuring ? 1 : frames_until_rest;
-    const auto wanted =
-        std::tuple(document_.revision(), trust_.revision(), size_.x, size_.y, ui_.view, tuned, interacting_, frames);
+    const SplitView& split = ui_.tools.split;
+    const auto other = split.on ? std::optional(split.other(own_look(ui_, document_.scene()))) : std::nullopt;
+    const auto wanted = std::tuple(document_.revision(), trust_.revision(), size_.x, size_.y, ui_.view, other, tuned,
+                                   interacting_, frames);
     if (wanted == requested_) return std::nullopt;
     requested_ = wanted;
     return RenderRequest{.scene = document_.snapshot(),
                          .size = size_,
                          .view = ui_.view,
+                         .other = other,
                          .tuned = tuned,
                          .interacting = interacting_,
                          .max_frames = frames};

@@ -61,6 +61,7 @@ constexpr Command commands[] = {
     {CommandId::axes, "Tools", "axes", "Local axes", 'X', plain, "X", true},
     {CommandId::lights, "Tools", "lights", "Signs of lights", 'L', shift, "Shift+L", true},
     {CommandId::grid, "Tools", "grid", "Grid and axes", 'G', plain, "G"},
+    {CommandId::split, "Tools", "split", "Split view", 'V', plain, "V"},
     {CommandId::frame_selection, "View", "frame_selection", "Frame selection", 'F', plain, "F", true},
     {CommandId::frame_all, "View", "frame_all", "Frame all", GLFW_KEY_HOME, plain, "Home, Shift+F"},
     {CommandId::reset_camera, "View", "reset_camera", "Reset camera", GLFW_KEY_HOME, shift, "Shift+Home"},
@@ -105,7 +106,8 @@ bool is_on(const Ui& ui, CommandId id) {
            (id == CommandId::rotate && ui.tools.tool == Tool::rotate) ||
            (id == CommandId::scale && ui.tools.tool == Tool::scale) ||
            (id == CommandId::axes && ui.tools.axes == Axes::local) || (id == CommandId::lights && ui.tools.lights) ||
-           (id == CommandId::grid && ui.tools.grid) || (id == CommandId::shortcuts && ui.show_shortcuts);
+           (id == CommandId::grid && ui.tools.grid) || (id == CommandId::split && ui.tools.split.on) ||
+           (id == CommandId::shortcuts && ui.show_shortcuts);
 }
 
 void view_entries(Ui& ui) {
@@ -177,6 +179,9 @@ bool choose_tool(PictureTools& tools, CommandId id) {
             return true;
         case CommandId::grid:
             tools.grid = !tools.grid;
+            return true;
+        case CommandId::split:
+            tools.split.on = !tools.split.on;
             return true;
         default:
             return false;

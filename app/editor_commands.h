@@ -57,6 +57,7 @@ enum class CommandId {
     axes,
     lights,
     grid,
+    split,
     history,
     code,
     measure,

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/panel_sizes.h"
+#include "ui/picture_tools.h"
 
 #include <glm/vec2.hpp>
 
@@ -20,8 +21,9 @@ struct EditorState {
     bool maximised = false;
     PanelSizes panels;
     bool statistics = true, code = false, measure = false;  ///< are shown
-    bool newest_first = false;                              ///< the order of files in the dialog
-    std::vector<std::filesystem::path> recent;              ///< files, the last one first
+    SplitView split;
+    bool newest_first = false;                  ///< the order of files in the dialog
+    std::vector<std::filesystem::path> recent;  ///< files, the last one first
 };
 
 /// Where it is remembered; empty where there is no such folder.

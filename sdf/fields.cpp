@@ -34,7 +34,6 @@ Field<T> field(Parameter parameter) {
 }
 
 constexpr float big = largest_value;
-constexpr const char* method_names[] = {"paper", "farfield", "reference"};
 using P = ParameterType;
 
 }  // namespace
@@ -107,7 +106,7 @@ std::span<const Field<Settings>> fields<Settings>() {
              0.0f,
              2.0f,
              {},
-             method_names}),
+             method_keys}),
         field<&Settings::samples>(
             {"samples", "Hemisphere rays per pixel and frame", P::integer, Unit::none, 1.0f, 64.0f}),
         field<&Settings::bounces>({"bounces",

@@ -95,6 +95,7 @@ struct Bookmark {
 };
 
 enum class Method { paper, farfield, reference };
+inline constexpr const char* method_keys[] = {"paper", "farfield", "reference"};  ///< in files
 
 /// How the scene is rendered; saved with it, because a good AO radius or exposure belongs to the scene.
 struct Settings {

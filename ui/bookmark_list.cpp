@@ -89,23 +89,19 @@ private:
     }
 
     void menu(const Bookmark& bookmark, std::size_t index) {
-        ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui_.theme.px(7.0f), ui_.theme.px(6.0f)});
-        ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui_.theme.px(10.0f), ui_.theme.px(8.0f)});
-        if (ImGui::BeginPopup("menu")) {
-            entry("Go there", bookmark_key(index), go_to_bookmark(scene_, bookmark));
-            entry("Set to the present view", "", update_bookmark(scene_, bookmark));
-            if (ImGui::MenuItem("Rename")) rename(bookmark);
-            ui_.report.item("bookmark", "Rename");
-            ImGui::Separator();
-            const int at = static_cast<int>(index);
-            entry("Move up", "", at > 0 ? Edits{MoveBookmark{bookmark.id, at - 1}} : Edits{});
-            entry("Move down", "",
-                  index + 1 < scene_.bookmarks.size() ? Edits{MoveBookmark{bookmark.id, at + 1}} : Edits{});
-            ImGui::Separator();
-            entry("Delete", "", {RemoveBookmark{bookmark.id}});
-            ImGui::EndPopup();
-        }
-        ImGui::PopStyleVar(2);
+        const PopupMenu popup(ui_, "menu");
+        if (!popup.is_open()) return;
+        entry("Go there", bookmark_key(index), go_to_bookmark(scene_, bookmark));
+        entry("Set to the present view", "", update_bookmark(scene_, bookmark));
+        if (ImGui::MenuItem("Rename")) rename(bookmark);
+        ui_.report.item("bookmark", "Rename");
+        ImGui::Separator();
+        const int at = static_cast<int>(index);
+        entry("Move up", "", at > 0 ? Edits{MoveBookmark{bookmark.id, at - 1}} : Edits{});
+        entry("Move down", "",
+              index + 1 < scene_.bookmarks.size() ? Edits{MoveBookmark{bookmark.id, at + 1}} : Edits{});
+        ImGui::Separator();
+        entry("Delete", "", {RemoveBookmark{bookmark.id}});
     }
 
     /// Greyed where there is nothing to do.

@@ -111,6 +111,17 @@ void tooltip(const Ui& ui, std::string_view text, std::string_view hint) {
     ImGui::PopStyleVar();
 }
 
+PopupMenu::PopupMenu(const Ui& ui, const char* id) {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.theme.px(10.0f), ui.theme.px(8.0f)});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.theme.px(7.0f), ui.theme.px(6.0f)});
+    open_ = ImGui::BeginPopup(id);
+}
+
+PopupMenu::~PopupMenu() {
+    if (open_) ImGui::EndPopup();
+    ImGui::PopStyleVar(2);
+}
+
 void draw_icon(const Ui& ui, Role role, ImVec2 centre) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const ImU32 color = ui.theme.role(role);

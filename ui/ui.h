@@ -111,6 +111,20 @@ bool heading(Ui& ui, const char* title, const char* panel, const char* name, std
 /// Tooltip of the last item after a short rest of the mouse; the second text is dimmed.
 void tooltip(const Ui& ui, std::string_view text, std::string_view hint = {});
 
+/// A menu that ImGui::OpenPopup has opened, with the spacing of menus whatever the rows around it have. Draws its
+/// entries and is left at the end of its life.
+class PopupMenu {
+public:
+    PopupMenu(const Ui& ui, const char* id);
+    ~PopupMenu();
+    PopupMenu(const PopupMenu&) = delete;
+    PopupMenu& operator=(const PopupMenu&) = delete;
+    bool is_open() const { return open_; }
+
+private:
+    bool open_;
+};
+
 /// The sign of a node's role: disc, two discs, four dots or a ring.
 void draw_icon(const Ui& ui, Role role, ImVec2 centre);
 
