@@ -100,7 +100,7 @@ EditorState parse_editor_state(std::string_view text) {
     EditorState state;
     const Json json = Json::parse(text, nullptr, false);
     const Json& window = member(json, "window");
-    if (const auto size = pair(member(window, "size"), {least_width, least_height}, most_pixels)) state.size = *size;
+    state.size = pair(member(window, "size"), {least_width, least_height}, most_pixels);
     state.place = pair(member(window, "place"), glm::ivec2(-most_pixels), most_pixels);
     for (const PanelName& panel : panels)
         if (const auto size = number(member(member(json, "panels"), panel.key), 1.0, most_pixels))
@@ -116,7 +116,8 @@ EditorState parse_editor_state(std::string_view text) {
 
 std::string to_text(const EditorState& state) {
     Json json;
-    json["window"]["size"] = {state.size.x, state.size.y};
+    json["window"] = Json::object();
+    if (state.size) json["window"]["size"] = {state.size->x, state.size->y};
     if (state.place) json["window"]["place"] = {state.place->x, state.place->y};
     for (const PanelName& panel : panels) json["panels"][panel.key] = state.panels.*panel.size;
     for (const SwitchName& name : switches) json[name.key] = state.*name.on;

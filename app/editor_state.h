@@ -16,7 +16,7 @@
 namespace farfield {
 
 struct EditorState {
-    glm::ivec2 size{1440, 900};       ///< of the window when it is not maximised, screen coordinates
+    std::optional<glm::ivec2> size;   ///< of the window when it is not maximised, screen coordinates
     std::optional<glm::ivec2> place;  ///< of its upper left corner
     bool maximised = false;
     PanelSizes panels;

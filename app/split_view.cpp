@@ -70,35 +70,41 @@ void menu(Ui& ui) {
 }
 
 /// One beside the other at the divider, or as near to it as there is room.
-void labels(Ui& ui, const Scene& scene, ImVec2 low, ImVec2 size, float x) {
+struct Labels {
+    std::string texts[2];
+    ImVec2 low[2], high[2];
+    bool hovered = false;  ///< that of B
+};
+
+Labels place_labels(const Ui& ui, const Scene& scene, ImVec2 low, ImVec2 size, float x) {
     const Look own = own_look(ui, scene), other = ui.tools.split.other(own);
-    const std::string texts[] = {"A  " + text_of(own, other), "B  " + text_of(other, own)};
+    Labels labels{{"A  " + text_of(own, other), "B  " + text_of(other, own)}, {}, {}};
     const float pad = ui.theme.px(8.0f), gap = ui.theme.px(10.0f), arrow = ui.theme.px(16.0f);
     const float height = ImGui::GetTextLineHeight() + pad, y = low.y + size.y - height - pad;
-    const float widths[] = {ImGui::CalcTextSize(texts[0].c_str()).x + 2.0f * pad,
-                            ImGui::CalcTextSize(texts[1].c_str()).x + 2.0f * pad + arrow};
+    const float widths[] = {ImGui::CalcTextSize(labels.texts[0].c_str()).x + 2.0f * pad,
+                            ImGui::CalcTextSize(labels.texts[1].c_str()).x + 2.0f * pad + arrow};
     const float least = low.x + pad, most = low.x + size.x - pad;
     float left = std::max(x - gap - widths[0], least);
     const float right = std::min(std::max(x + gap, left + widths[0] + gap), most - widths[1]);
     left = std::max(std::min(left, right - gap - widths[0]), least);
+    labels.low[0] = {left, y};
+    labels.low[1] = {right, y};
+    for (int side = 0; side < 2; ++side) labels.high[side] = {labels.low[side].x + widths[side], y + height};
+    return labels;
+}
 
-    ImGui::SetCursorScreenPos({right, y});
-    if (ImGui::InvisibleButton("B", {widths[1], height})) ImGui::OpenPopup("split");
-    ui.report.item("split", "b");
-    const bool hovered = ImGui::IsItemHovered();
-    tooltip(ui, "What the right side shows: another method, view or number of blur levels");
-    ui.report.rectangle("split", "a", {left, y}, {left + widths[0], y + height});
+void draw_labels(const Ui& ui, const Labels& labels) {
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    const float starts[] = {left, right};
+    const float pad = ui.theme.px(8.0f), rounding = ui.theme.px(4.0f);
     for (int side = 0; side < 2; ++side) {
-        const ImVec2 corner{starts[side], y}, end{starts[side] + widths[side], y + height};
-        draw.AddRectFilled(corner, end, ui.theme.overlay, ui.theme.px(4.0f));
-        if (side == 1 && hovered)
-            draw.AddRectFilled(corner, end, ImGui::GetColorU32(ImGuiCol_HeaderHovered), pad * 0.5f);
-        draw.AddText({corner.x + pad, y + pad * 0.5f}, ui.theme.text, texts[side].c_str());
+        const ImVec2 low = labels.low[side], high = labels.high[side];
+        draw.AddRectFilled(low, high, ui.theme.overlay, rounding);
+        if (side == 1 && labels.hovered)
+            draw.AddRectFilled(low, high, ImGui::GetColorU32(ImGuiCol_HeaderHovered), rounding);
+        draw.AddText({low.x + pad, low.y + pad * 0.5f}, ui.theme.text, labels.texts[side].c_str());
     }
-    const ImVec2 tip{right + widths[1] - pad - ui.theme.px(4.0f), y + height * 0.5f + ui.theme.px(3.0f)};
     const float half = ui.theme.px(4.0f);
+    const ImVec2 tip{labels.high[1].x - pad - half, 0.5f * (labels.low[1].y + labels.high[1].y) + 0.75f * half};
     draw.AddTriangleFilled({tip.x - half, tip.y - 1.3f * half}, {tip.x + half, tip.y - 1.3f * half}, tip,
                            ui.theme.text);
 }
@@ -110,7 +116,15 @@ Look own_look(const Ui& ui, const Scene& scene) { return {ui.view, scene.setting
 void split_controls(Ui& ui, const Scene& scene, ImVec2 low, ImVec2 size) {
     SplitView& split = ui.tools.split;
     if (!split.on) return;
-    labels(ui, scene, low, size, divider_at(ui, low, size));
+    // The labels come before the divider, so that the mouse is theirs where they are, and are drawn after it.
+    Labels labels = place_labels(ui, scene, low, size, divider_at(ui, low, size));
+    ImGui::SetCursorScreenPos(labels.low[1]);
+    if (ImGui::InvisibleButton("B", {labels.high[1].x - labels.low[1].x, labels.high[1].y - labels.low[1].y}))
+        ImGui::OpenPopup("split");
+    labels.hovered = ImGui::IsItemHovered();
+    ui.report.item("split", "b");
+    ui.report.rectangle("split", "a", labels.low[0], labels.high[0]);
+    tooltip(ui, "What the right side shows: another method, view or number of blur levels");
     menu(ui);
     const float half = ui.theme.px(5.0f);
     ImGui::SetCursorScreenPos({divider_at(ui, low, size) - half, low.y});
@@ -128,6 +142,7 @@ void split_controls(Ui& ui, const Scene& scene, ImVec2 low, ImVec2 size) {
     draw.AddRectFilled({x - 1.5f * line, low.y}, {x + 1.5f * line, low.y + size.y}, IM_COL32(10, 11, 13, 150));
     draw.AddRectFilled({x - 0.5f * line, low.y}, {x + 0.5f * line, low.y + size.y},
                        lit ? ui.theme.accent : ui.theme.text);
+    draw_labels(ui, labels);
 }
 
 void split_picture(const Ui& ui, const RenderedPicture& picture, ImVec2 low, ImVec2 size) {

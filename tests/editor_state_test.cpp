@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 TEST(EditorState, IsReadAsItWasWritten) {
     EditorState state;
-    state.size = {1000, 700};
+    state.size = glm::ivec2(1000, 700);
     state.place = glm::ivec2(-5, 30);
     state.panels.left = 312.5f;
     state.code = state.newest_first = true;

@@ -64,7 +64,7 @@ def bookmarks_change_places_and_go(editor):
     editor.point_at("bookmarks/view")
     editor.display.xdotool("click", 3)
     step_after(editor, lambda: editor.click("bookmark/Delete"), "one less")
-    check(rows(editor) == ["from above"], "the other is left")
+    editor.wait("the other is left", lambda r: rows(editor) == ["from above"])
     while editor.report()["step"] > 0:
         step = editor.report()["step"]
         editor.key("ctrl+z")
@@ -82,11 +82,11 @@ def drag_down(editor, control, by):
 
 
 def halves(editor):
-    """The pixels of the picture's left and right quarter, without what is drawn over them."""
+    """The pixels of parts in the picture's left and right quarter that nothing is drawn over."""
     x, y, width, height = editor.place("viewport")
     part = (width // 5, height // 3)
-    top = y + height // 2
-    return [editor.display.picture(left, top, *part) for left in (x + 8, x + width - 8 - part[0])]
+    top, margin = y + height // 2, width // 10
+    return [editor.display.picture(left, top, *part) for left in (x + margin, x + width - margin - part[0])]
 
 
 def the_split_view_compares(editor):
@@ -112,10 +112,10 @@ def the_split_view_compares(editor):
 
     editor.drag("split/divider", to_fraction(editor, 0.05))
     split = halves(editor)
-    check(changed_fraction(split[0], depth[0]) < 0.15, "the divider was dragged to the left: depth is there too")
+    check(changed_fraction(split[0], depth[0]) < 0.01, "the divider was dragged to the left: depth is there too")
     editor.drag("split/divider", to_fraction(editor, 0.95))
     split = halves(editor)
-    check(changed_fraction(split[1], normals[1]) < 0.15, "and to the right: normals are there too")
+    check(changed_fraction(split[1], normals[1]) < 0.01, "and to the right: normals are there too")
     check(editor.report()["revision"] == revision, "none of this changes the scene")
     editor.click("tools/split")
     editor.wait("one picture", lambda r: "split/divider" not in r["controls"])
