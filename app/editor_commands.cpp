@@ -93,7 +93,8 @@ constexpr std::pair<const char*, const char*> mouse[] = {
     {"Double-click or Ctrl-click a number", "Type it, or arithmetic as 2*(1+.5)"},
     {"Right-click a value", "Back to its default"},
     {"Drag a node in the tree", "Re-order, or move into another"},
-    {"Right-click a node", "What can be done with it"},
+    {"Right-click a node or a material", "What can be done with it"},
+    {"Drag a material", "Onto a shape in the picture or the tree: it has it then"},
     {"Click a line of code", "Select its node; drag to select text"},
     {"Ctrl+Enter in custom code", "Compile it"},
 };

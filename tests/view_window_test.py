@@ -1,4 +1,4 @@
-"""Bookmarks of the camera and the split view, by mouse and keyboard in the editor's real window.
+"""Bookmarks of the camera, the split view and materials, by mouse and keyboard in the editor's real window.
 
 Usage: view_window_test.py FARFIELD SCENE
 """
@@ -130,9 +130,45 @@ def to_fraction(editor, fraction):
     return int(x + fraction * width - divider[0] - divider[2] / 2)
 
 
+def materials_are_assigned(editor):
+    """By a click beside the name, by a drop on the picture, and a new one from the inspector; all is undone."""
+    def material(name):
+        nodes = saved_scene(editor)["root"]["children"]
+        return next(node for node in nodes if node["name"] == name).get("material")
+
+    check(material("short block") is None and material("back wall") is None, "neither has one")
+    editor.click("tree/short block")
+    x, y, width, height = editor.place("materials/red")
+    editor.display.xdotool("mousemove", x + width - 20, y + height // 2)
+    time.sleep(0.3)
+    step_after(editor, lambda: editor.display.xdotool("click", 1), "red by a click")
+    check(material("short block") == "red", "the selected one has it")
+
+    left, top, width, height = editor.place("viewport")
+    x, y = editor.point_at("materials/green", 0.2)
+    editor.display.xdotool("mousedown", 1)
+    for part in range(1, 11):
+        editor.display.xdotool("mousemove", x + (left + width // 2 - x) * part // 10,
+                               y + (top + int(0.3 * height) - y) * part // 10)
+        time.sleep(0.05)
+    step_after(editor, lambda: editor.display.xdotool("mouseup", 1), "green by a drop")
+    check(material("back wall") == "green", "what it was dropped on has it")
+
+    editor.click("inspector/material")
+    step_after(editor, lambda: editor.click("material/new"), "a new material")
+    editor.wait("it is shown", lambda r: r["selection"] == "material")
+    check(material("short block") == "material", "and is that of the node")
+    for _ in range(3):
+        step = editor.report()["step"]
+        editor.key("ctrl+z")
+        editor.wait("a step back", lambda r: r["step"] == step - 1)
+    check(saved_scene(editor) == FIRST, "undo takes back all of it")
+
+
 def main():
     run_steps(sys.argv[1], sys.argv[2],
-              [bookmarks_are_kept_gone_to_and_renamed, bookmarks_change_places_and_go, the_split_view_compares],
+              [bookmarks_are_kept_gone_to_and_renamed, bookmarks_change_places_and_go, the_split_view_compares,
+               materials_are_assigned],
               "view_window_failure.png")
 
 

@@ -136,22 +136,21 @@ void material_row(Ui& ui, const Scene& scene, const Material& material, int uses
         ImGui::EndDragDropSource();
     }
     Edits given = row.hovered() ? give_material(scene, ui.selected(), material.id) : Edits{};
-    const std::string note = fmt::format("{}{}", emits ? "emits   " : "", uses);
-    if (given.empty()) {
-        row.note(note.c_str(), ui.theme.dim);
-        if (row.pressed()) row.select(object);
-    } else {
-        const float from = row.note("assign", ui.theme.accent);
-        if (row.pressed() && ImGui::GetIO().MouseClickedPos[0].x >= from)
-            edits = std::move(given);
-        else if (row.pressed())
-            row.select(object);
-    }
-    if (row.hovered())
+    const bool first = &material == scene.materials.data();
+    const std::string note = fmt::format("{}{}", first ? "default   " : emits ? "emits   " : "", uses);
+    const float from = given.empty() ? row.note(note.c_str(), ui.theme.dim) : row.note("assign", ui.theme.accent);
+    const bool assigns = !given.empty() && ImGui::GetIO().MousePos.x >= from;
+    if (row.pressed() && assigns)
+        edits = std::move(given);
+    else if (row.pressed())
+        row.select(object);
+    if (assigns)
+        tooltip(ui, "Gives it to what is selected");
+    else if (row.hovered() && given.empty())  // or it would lie on the word
         tooltip(ui,
-                fmt::format("{} {} it. Drag it onto a shape in the picture or in the tree.", uses,
-                            uses == 1 ? "node has" : "nodes have"),
-                given.empty() ? "Right-click for more" : "A click on \"assign\" gives it to what is selected");
+                fmt::format("{} {} it{}. Drag it onto a shape in the picture or in the tree.", uses,
+                            uses == 1 ? "node has" : "nodes have", first ? ", and all that have none" : ""),
+                "Right-click for more");
     material_menu(ui, scene, material, uses, edits);
 }
 
