@@ -15,7 +15,6 @@
 namespace farfield {
 namespace {
 
-constexpr const char* method_keys[] = {"paper", "farfield", "reference"};
 constexpr const char* clock_keys[] = {"cpu", "device"};
 
 template <class Names, class T>

@@ -1,5 +1,6 @@
 #include "app/editor.h"
 
+#include "app/split_view.h"
 #include "app/thumbnails.h"
 #include "ui/tree_edits.h"
 
@@ -15,6 +16,15 @@ namespace {
 // The picture gets no better by eye long before this many frames; then the machine may rest.
 constexpr int frames_until_rest = 4096;
 constexpr double wheel_rest = 0.4;  // seconds: turns of the wheel closer than this are one gesture
+
+/// Whether what is to be seen is another scene, so that a hand which goes on wants quick pictures. Settings are no
+/// object in the scene that could be followed quicker at a lower resolution, which would discard the samples that most
+/// of them keep.
+bool changes_picture(const Edit& edit) {
+    if (const auto* set = std::get_if<SetValue>(&edit))
+        return set->object.type != ObjectType::settings && set->object.type != ObjectType::bookmark;
+    return !std::holds_alternative<MoveBookmark>(edit);
+}
 
 /// Looking around is no work on the scene, though undo covers it.
 bool moves_camera(const Edit& edit) {
@@ -37,6 +47,8 @@ std::string selection_name(const Scene& scene, ObjectRef selection) {
             return "Sky";
         case ObjectType::camera:
             return "Camera";
+        case ObjectType::bookmark:
+            return "";  // is never selected
         case ObjectType::settings:
             return "Settings";
     }
@@ -57,6 +69,7 @@ Editor::Editor(EditorState& state, const Theme& theme, Report report)
     ui_.show_statistics = state_.statistics;
     ui_.show_code = state_.code;
     ui_.show_measure = state_.measure;
+    ui_.tools.split = state_.split;
     show_new_document();
 }
 
@@ -115,6 +128,7 @@ void Editor::end() {
     state_.statistics = ui_.show_statistics;
     state_.code = ui_.show_code;
     state_.measure = ui_.show_measure;
+    state_.split = ui_.tools.split;
 }
 
 /// A gesture lasts while one thing is held or typed into; every other frame may begin a new one.
@@ -150,11 +164,8 @@ void Editor::carry_out(const Edits& edits, unsigned gesture) {
         const std::vector<Id> results = document_.apply(edits, gesture);
         gesture_edited_ = true;
         if (!std::all_of(edits.begin(), edits.end(), moves_camera)) files_.edit_succeeded();
-        // Settings are no object in the scene that could be followed quicker at a lower resolution, which would
-        // discard the samples that most of them keep.
         for (const Edit& edit : edits) {
-            const auto* set = std::get_if<SetValue>(&edit);
-            gesture_moves_ |= !set || set->object.type != ObjectType::settings;
+            gesture_moves_ |= changes_picture(edit);
             if (const auto* moved = std::get_if<MoveNode>(&edit)) ui_.reveal = moved->node;
         }
         if (!values_only) ui_.select(selection_after(before, document_.scene(), edits, results, selected));
@@ -207,7 +218,8 @@ void Editor::show_new_document() {
 bool Editor::keyboard_changes_hands() const {
     const ImGuiContext& g = *ImGui::GetCurrentContext();
     const bool moving = g.NavMoveSubmitted && (g.NavMoveFlags & ImGuiNavMoveFlags_Tabbing);
-    return ui_.focus_name || ui_.open_add || ui_.tree_search.focus || files_.wants_keyboard() || moving;
+    return ui_.focus_name || ui_.open_add || ui_.tree_search.focus || ui_.bookmark_entry.focus ||
+           files_.wants_keyboard() || moving;
 }
 
 std::optional<RenderRequest> Editor::request(const EditorInput& input, glm::vec2 picture_size, bool measuring) {
@@ -218,13 +230,16 @@ std::optional<RenderRequest> Editor::request(const EditorInput& input, glm::vec2
     const Id tuned = ui_.selection.type == ObjectType::node ? ui_.selection.id : 0;
     // What is measured is the processor's time: the picture rests as soon as it shows what there is.
     const int frames = measuring ? 1 : frames_until_rest;
-    const auto wanted =
-        std::tuple(document_.revision(), trust_.revision(), size_.x, size_.y, ui_.view, tuned, interacting_, frames);
+    const SplitView& split = ui_.tools.split;
+    const auto other = split.on ? std::optional(split.other(own_look(ui_, document_.scene()))) : std::nullopt;
+    const auto wanted = std::tuple(document_.revision(), trust_.revision(), size_.x, size_.y, ui_.view, other, tuned,
+                                   interacting_, frames);
     if (wanted == requested_) return std::nullopt;
     requested_ = wanted;
     return RenderRequest{.scene = document_.snapshot(),
                          .size = size_,
                          .view = ui_.view,
+                         .other = other,
                          .tuned = tuned,
                          .interacting = interacting_,
                          .max_frames = frames};

@@ -82,6 +82,7 @@ private:
     void paste();
     Box selection_box() const;
     void frame_box(const Box& box);
+    void go_to_bookmark(std::size_t index);
 
     EditorState& state_;
     CodeTrust trust_{CodeTrust::user_file()};
@@ -103,7 +104,7 @@ private:
     bool gesture_moves_ = false;   ///< and more of it than settings
     bool interacting_ = false;
     glm::ivec2 size_{0};
-    std::tuple<std::uint64_t, std::size_t, int, int, View, Id, bool, int> requested_{};
+    std::tuple<std::uint64_t, std::size_t, int, int, View, std::optional<Look>, Id, bool, int> requested_{};
     std::uint64_t shown_document_ = 0;  ///< its generation
 };
 

@@ -2,6 +2,7 @@
 #include "app/camera_control.h"
 #include "app/editor.h"
 #include "app/selection_commands.h"
+#include "ui/bookmark_list.h"
 #include "ui/tree_edits.h"
 
 #include <imgui_internal.h>
@@ -26,6 +27,8 @@ void Editor::keyboard(const std::vector<KeyPress>& keys) {
             save_ = ui_.hand_in = true;
         } else if (const auto view = view_for(press))
             ui_.view = *view;
+        else if (const auto bookmark = bookmark_for(press))
+            go_to_bookmark(*bookmark);
         else if (command && enabled(*command))
             perform(*command);
     }
@@ -119,6 +122,9 @@ void Editor::perform(CommandId id) {
         case CommandId::reset_camera:
             carry_out(camera_edits(scene.camera, document_.first_camera()), ++last_gesture_);
             break;
+        case CommandId::bookmark:
+            carry_out({AddBookmark{{0, "", scene.camera}}}, 0);
+            break;
         case CommandId::history:
             ui_.show_history = !ui_.show_history;
             break;
@@ -157,6 +163,12 @@ Box Editor::selection_box() const {
     for (const Id id : selected_nodes(ui_.selected()))
         if (find_node(scene, id)) box = box.united(framed_box(scene, {ObjectType::node, id}));
     return box;
+}
+
+void Editor::go_to_bookmark(std::size_t index) {
+    const Scene& scene = document_.scene();
+    if (index < scene.bookmarks.size())
+        carry_out(farfield::go_to_bookmark(scene, scene.bookmarks[index]), ++last_gesture_);
 }
 
 /// Moves the camera to where it sees the whole of it.

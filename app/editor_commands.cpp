@@ -61,9 +61,11 @@ constexpr Command commands[] = {
     {CommandId::axes, "Tools", "axes", "Local axes", 'X', plain, "X", true},
     {CommandId::lights, "Tools", "lights", "Signs of lights", 'L', shift, "Shift+L", true},
     {CommandId::grid, "Tools", "grid", "Grid and axes", 'G', plain, "G"},
+    {CommandId::split, "Tools", "split", "Split view", 'V', plain, "V"},
     {CommandId::frame_selection, "View", "frame_selection", "Frame selection", 'F', plain, "F", true},
     {CommandId::frame_all, "View", "frame_all", "Frame all", GLFW_KEY_HOME, plain, "Home, Shift+F"},
     {CommandId::reset_camera, "View", "reset_camera", "Reset camera", GLFW_KEY_HOME, shift, "Shift+Home"},
+    {CommandId::bookmark, "View", "bookmark", "Bookmark this view", 'B', ctrl, "Ctrl+B", true},
     {CommandId::front, "View", "front", "From the front", GLFW_KEY_KP_1, plain, "Numpad 1", true},
     {CommandId::back, "View", "back", "From the back", GLFW_KEY_KP_1, ctrl, "Ctrl+Numpad 1"},
     {CommandId::right, "View", "right", "From the right", GLFW_KEY_KP_3, plain, "Numpad 3"},
@@ -91,7 +93,8 @@ constexpr std::pair<const char*, const char*> mouse[] = {
     {"Double-click or Ctrl-click a number", "Type it, or arithmetic as 2*(1+.5)"},
     {"Right-click a value", "Back to its default"},
     {"Drag a node in the tree", "Re-order, or move into another"},
-    {"Right-click a node", "What can be done with it"},
+    {"Right-click a node or a material", "What can be done with it"},
+    {"Drag a material", "Onto a shape in the picture or the tree: it has it then"},
     {"Click a line of code", "Select its node; drag to select text"},
     {"Ctrl+Enter in custom code", "Compile it"},
 };
@@ -104,7 +107,8 @@ bool is_on(const Ui& ui, CommandId id) {
            (id == CommandId::rotate && ui.tools.tool == Tool::rotate) ||
            (id == CommandId::scale && ui.tools.tool == Tool::scale) ||
            (id == CommandId::axes && ui.tools.axes == Axes::local) || (id == CommandId::lights && ui.tools.lights) ||
-           (id == CommandId::grid && ui.tools.grid) || (id == CommandId::shortcuts && ui.show_shortcuts);
+           (id == CommandId::grid && ui.tools.grid) || (id == CommandId::split && ui.tools.split.on) ||
+           (id == CommandId::shortcuts && ui.show_shortcuts);
 }
 
 void view_entries(Ui& ui) {
@@ -149,6 +153,11 @@ std::optional<View> view_for(const KeyPress& press) {
     return views()[static_cast<std::size_t>(index)].view;
 }
 
+std::optional<std::size_t> bookmark_for(const KeyPress& press) {
+    if (!press.ctrl || press.alt || press.shift || press.key < '1' || press.key > '9') return std::nullopt;
+    return static_cast<std::size_t>(press.key - '1');
+}
+
 bool choose_tool(PictureTools& tools, CommandId id) {
     switch (id) {
         case CommandId::select:
@@ -171,6 +180,9 @@ bool choose_tool(PictureTools& tools, CommandId id) {
             return true;
         case CommandId::grid:
             tools.grid = !tools.grid;
+            return true;
+        case CommandId::split:
+            tools.split.on = !tools.split.on;
             return true;
         default:
             return false;
@@ -224,6 +236,7 @@ void shortcut_list(Ui& ui) {
     for (const Command& command : commands)
         if (command.key != 0) lines.emplace_back(command.key_text, command.label);
     lines.emplace_back("1 ... 9", "Views, from Result to Step count");
+    lines.emplace_back("Ctrl+1 ... Ctrl+9", "Go to a bookmark of the camera");
     // As many columns as the window's height asks for.
     const float line = ImGui::GetTextLineHeight() + 2.0f * ImGui::GetStyle().CellPadding.y;
     const float room = std::max(0.8f * ImGui::GetMainViewport()->WorkSize.y, line);

@@ -43,6 +43,7 @@ enum class CommandId {
     frame_selection,
     frame_all,
     reset_camera,
+    bookmark,
     front,
     back,
     right,
@@ -56,6 +57,7 @@ enum class CommandId {
     axes,
     lights,
     grid,
+    split,
     history,
     code,
     measure,
@@ -67,6 +69,8 @@ enum class CommandId {
 std::optional<CommandId> command_for(const KeyPress& press);
 /// The view on a number key, if any.
 std::optional<View> view_for(const KeyPress& press);
+/// Which bookmark is on a number key with Ctrl, from 0.
+std::optional<std::size_t> bookmark_for(const KeyPress& press);
 
 /// What a command of the menu Tools makes of the tools; false for other commands.
 bool choose_tool(PictureTools& tools, CommandId id);

@@ -60,6 +60,29 @@ std::optional<glm::ivec2> pair(const Json& json, glm::ivec2 low, int high) {
     return glm::ivec2(*x, *y);
 }
 
+SplitView parse_split(const Json& json) {
+    SplitView split;
+    if (const Json& on = member(json, "on"); on.is_boolean()) split.on = on.get<bool>();
+    if (const auto divider = number(member(json, "divider"), SplitView::least_part, 1.0 - SplitView::least_part))
+        split.divider = static_cast<float>(*divider);
+    const Json &method = member(json, "method"), &view = member(json, "view");
+    if (method == "same") split.method.reset();
+    for (std::size_t i = 0; i < std::size(method_keys); ++i)
+        if (method == method_keys[i]) split.method = static_cast<Method>(i);
+    if (view.is_string()) split.view = find_view(view.get<std::string>());
+    if (const auto levels = number(member(json, "blur_levels"), 0.0, 8.0))
+        split.blur_levels = static_cast<int>(*levels);
+    return split;
+}
+
+Json split_json(const SplitView& split) {
+    Json json{{"on", split.on}, {"divider", split.divider}};
+    json["method"] = split.method ? method_keys[static_cast<std::size_t>(*split.method)] : "same";
+    if (split.view) json["view"] = views()[static_cast<std::size_t>(*split.view)].key;
+    if (split.blur_levels) json["blur_levels"] = *split.blur_levels;
+    return json;
+}
+
 void put_first(std::vector<fs::path>& files, const fs::path& file) {
     std::erase(files, file);
     files.insert(files.begin(), file);
@@ -77,13 +100,14 @@ EditorState parse_editor_state(std::string_view text) {
     EditorState state;
     const Json json = Json::parse(text, nullptr, false);
     const Json& window = member(json, "window");
-    if (const auto size = pair(member(window, "size"), {least_width, least_height}, most_pixels)) state.size = *size;
+    state.size = pair(member(window, "size"), {least_width, least_height}, most_pixels);
     state.place = pair(member(window, "place"), glm::ivec2(-most_pixels), most_pixels);
     for (const PanelName& panel : panels)
         if (const auto size = number(member(member(json, "panels"), panel.key), 1.0, most_pixels))
             state.panels.*panel.size = static_cast<float>(*size);
     for (const SwitchName& name : switches)
         if (const Json& on = member(json, name.key); on.is_boolean()) state.*name.on = on.get<bool>();
+    state.split = parse_split(member(json, "split"));
     for (const Json& file : member(json, "recent"))
         if (file.is_string() && state.recent.size() < most_recent)
             if (const fs::path path = file.get<std::string>(); path.is_absolute()) state.recent.push_back(path);
@@ -92,10 +116,12 @@ EditorState parse_editor_state(std::string_view text) {
 
 std::string to_text(const EditorState& state) {
     Json json;
-    json["window"]["size"] = {state.size.x, state.size.y};
+    json["window"] = Json::object();
+    if (state.size) json["window"]["size"] = {state.size->x, state.size->y};
     if (state.place) json["window"]["place"] = {state.place->x, state.place->y};
     for (const PanelName& panel : panels) json["panels"][panel.key] = state.panels.*panel.size;
     for (const SwitchName& name : switches) json[name.key] = state.*name.on;
+    json["split"] = split_json(state.split);
     json["recent"] = Json::array();
     for (const fs::path& file : state.recent) json["recent"].push_back(file.string());
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/panel_sizes.h"
+#include "ui/picture_tools.h"
 
 #include <glm/vec2.hpp>
 
@@ -15,13 +16,14 @@
 namespace farfield {
 
 struct EditorState {
-    glm::ivec2 size{1440, 900};       ///< of the window when it is not maximised, screen coordinates
+    std::optional<glm::ivec2> size;   ///< of the window when it is not maximised, screen coordinates
     std::optional<glm::ivec2> place;  ///< of its upper left corner
     bool maximised = false;
     PanelSizes panels;
     bool statistics = true, code = false, measure = false;  ///< are shown
-    bool newest_first = false;                              ///< the order of files in the dialog
-    std::vector<std::filesystem::path> recent;              ///< files, the last one first
+    SplitView split;
+    bool newest_first = false;                  ///< the order of files in the dialog
+    std::vector<std::filesystem::path> recent;  ///< files, the last one first
 };
 
 /// Where it is remembered; empty where there is no such folder.

@@ -1,5 +1,6 @@
 #include "app/layout.h"
 
+#include "ui/bookmark_list.h"
 #include "ui/history_panel.h"
 #include "ui/inspector_panel.h"
 #include "ui/objects_panel.h"
@@ -97,6 +98,24 @@ void split(Ui& ui, const char* id, ImVec2 low, ImVec2 extent, float now, float s
         chosen = (now + sign * moved) / ui.theme.scale;
 }
 
+/// Below the entry that adds one.
+Edits bookmark_menu(Ui& ui, const Scene& scene) {
+    Edits edits;
+    const bool open = ImGui::BeginMenu("Go to bookmark", !scene.bookmarks.empty());
+    ui.report.item("menu/View", "go_to_bookmark");
+    if (!open) return edits;
+    for (std::size_t i = 0; i < scene.bookmarks.size(); ++i) {
+        const Bookmark& bookmark = scene.bookmarks[i];
+        ImGui::PushID(static_cast<int>(bookmark.id));
+        if (ImGui::MenuItem(bookmark.name.c_str(), bookmark_key(i).c_str(), bookmark.camera == scene.camera))
+            edits = go_to_bookmark(scene, bookmark);
+        ui.report.item("menu/bookmark", bookmark.name);
+        ImGui::PopID();
+    }
+    ImGui::EndMenu();
+    return edits;
+}
+
 void append(std::vector<Edits>& to, Edits from) {
     if (!from.empty()) to.push_back(std::move(from));
 }
@@ -172,7 +191,10 @@ LayoutResult Layout::draw(Ui& ui, ImVec2 size, const Document& document, const V
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_MenuBar | ImGuiWindowFlags_NoScrollWithMouse);
     ImGui::PopStyleVar(3);
     if (ImGui::BeginMenuBar()) {
-        result.command = command_menus(ui, enabled, [&](CommandId id) { files.menu(ui, id); });
+        result.command = command_menus(ui, enabled, [&](CommandId id) {
+            files.menu(ui, id);
+            if (id == CommandId::bookmark) append(result.edits, bookmark_menu(ui, document.scene()));
+        });
         ImGui::EndMenuBar();
     }
     const ImVec2 low{0.0f, ImGui::GetFrameHeight()};

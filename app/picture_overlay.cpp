@@ -21,6 +21,7 @@ ImVec2 im(glm::vec2 v) { return {v.x, v.y}; }
 /// All that the shapes and what the camera sees of them depend on, by the one description of a scene that is complete.
 std::string key_of(const Scene& scene, const PictureView& view, const std::vector<Id>& selected, bool grid) {
     Scene seen = scene;
+    seen.bookmarks.clear();
     seen.settings = {};
     seen.sky = {};
     seen.lights.clear();

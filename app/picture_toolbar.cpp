@@ -54,6 +54,11 @@ void grid_sign(ImDrawList& draw, ImVec2 c, float r, ImU32 color, float thick) {
     }
 }
 
+void split_sign(ImDrawList& draw, ImVec2 c, float r, ImU32 color, float thick) {
+    draw.AddRect({c.x - 0.95f * r, c.y - 0.75f * r}, {c.x + 0.95f * r, c.y + 0.75f * r}, color, 0.0f, 0, thick);
+    draw.AddRectFilled({c.x, c.y - 0.75f * r}, {c.x + 0.95f * r, c.y + 0.75f * r}, color);
+}
+
 /// A button with a sign; true when pressed.
 bool tool_button(Ui& ui, const char* name, bool on, Draw sign, const char* tip, const char* key) {
     const float side = ui.theme.px(26.0f);
@@ -133,6 +138,9 @@ float picture_toolbar(Ui& ui, ImVec2 low) {
     ImGui::SameLine(0.0f, gap);
     if (tool_button(ui, "grid", ui.tools.grid, grid_sign, "Grid on the ground, and the axes", "G"))
         ui.tools.grid = !ui.tools.grid;
+    ImGui::SameLine(0.0f, gap);
+    if (tool_button(ui, "split", ui.tools.split.on, split_sign, "Two methods or views side by side", "V"))
+        ui.tools.split.on = !ui.tools.split.on;
     divide(ui);
     static constexpr std::pair<int, const char*> resolutions[] = {{1, "100 %"}, {2, "50 %"}, {4, "25 %"}};
     std::size_t chosen = 0;

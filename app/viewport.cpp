@@ -3,14 +3,15 @@
 #include "app/camera_control.h"
 #include "app/light_handles.h"
 #include "app/picture_toolbar.h"
+#include "app/split_view.h"
 #include "sdf/pick.h"
+#include "ui/material_edits.h"
 #include "ui/statistics_panel.h"
 #include "ui/tree_edits.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdint>
 
 namespace farfield {
 namespace {
@@ -58,6 +59,27 @@ Id node_under_mouse(const Ui& ui, const Scene& scene, const PictureView& view) {
         for (const Node* node = find_node(scene, hit->node); node; node = find_parent(scene, node->id))
             if (node->id == ui.selection.id && node->id != scene.root.id) return find_parent(scene, node->id)->id;
     return hit->node;
+}
+
+/// Where a material is dragged over the last item: the shape under the mouse gets it. Returns what that comes to, as a
+/// sentence.
+std::string drop_target(const Ui& ui, const Scene& scene, const ViewportInput& input, const PictureView& view,
+                        Edits& edits) {
+    if (!ImGui::BeginDragDropTarget()) return {};
+    std::string text;
+    if (const ImGuiPayload* payload = ImGui::AcceptDragDropPayload(
+            material_payload, ImGuiDragDropFlags_AcceptBeforeDelivery | ImGuiDragDropFlags_AcceptNoDrawDefaultRect)) {
+        const Material* material = find_material(scene, *static_cast<const Id*>(payload->Data));
+        const Ray ray = view.ray(mouse());
+        const std::optional<Pick> hit = pick(FieldEvaluator(*input.shown), ray.origin, ray.direction);
+        const Node* node = hit ? find_node(scene, hit->node) : nullptr;
+        if (material && node) {
+            text = fmt::format("{} for {}", material->name, display_name(scene, *node));
+            if (payload->IsDelivery()) edits = drop_material(scene, ui.selected(), node->id, material->id);
+        }
+    }
+    ImGui::EndDragDropTarget();
+    return text;
 }
 
 /// With Ctrl the node is added or taken out, and a click beside the shapes changes nothing.
@@ -140,19 +162,21 @@ ViewportResult Viewport::draw(Ui& ui, const Scene& scene, const ViewportInput& i
     result.size = {size.x, size.y};
 
     // The tools come before the picture, so that the mouse is theirs where they are, and are drawn after it.
-    draw.ChannelsSplit(2);
-    draw.ChannelsSetCurrent(1);
+    draw.ChannelsSplit(3);
+    draw.ChannelsSetCurrent(2);
     const float bar = picture_toolbar(ui, {low.x + margin, low.y + covered + margin});
+    draw.ChannelsSetCurrent(1);
+    split_controls(ui, scene, low, size);
     draw.ChannelsSetCurrent(0);
 
     // Row 0 of the texture is the top of the picture, as ImGui has it.
-    ImGui::SetCursorScreenPos(low);
-    if (picture.texture != 0) ImGui::Image((ImTextureID) static_cast<std::intptr_t>(picture.texture), size);
+    if (picture.texture != 0) split_picture(ui, picture, low, size);
     ImGui::SetCursorScreenPos(low);
     ImGui::InvisibleButton(
         "picture", size,
         ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonMiddle | ImGuiButtonFlags_MouseButtonRight);
     ui.report.item("viewport", "");
+    const std::string dropping = drop_target(ui, scene, input, view, result.edits);
     const bool hovered = ImGui::IsItemHovered(), active = ImGui::IsItemActive();
     const std::vector<LightSign> lights = light_signs(ui, scene, view);
     if (!active) {
@@ -198,7 +222,9 @@ ViewportResult Viewport::draw(Ui& ui, const Scene& scene, const ViewportInput& i
               fmt::format("{:.2g} m/s    W A S D, Q E: fly    Wheel: speed    Esc: back", flight_speed_ * flight_scale_)
                   .c_str(),
               ui.theme.accent);
-    else if (ui.view != View::result)
+    else if (!dropping.empty())
+        label(ui, below, dropping.c_str(), ui.theme.accent);
+    else if (ui.view != View::result && !ui.tools.split.on)
         label(ui, below, views()[static_cast<std::size_t>(ui.view)].label, ui.theme.accent);
     // Beside the tools, or below them where there is no room.
     const float top = covered + margin + (size.x < ui.theme.px(540.0f) ? bar + margin : 0.0f);

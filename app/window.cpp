@@ -16,6 +16,9 @@
 namespace farfield {
 namespace {
 
+// At 96 dpi.
+constexpr glm::ivec2 usual_size{1440, 900}, least_size{800, 500};
+
 std::string last_error() {
     const char* text = nullptr;
     glfwGetError(&text);
@@ -77,8 +80,7 @@ private:
 
 Window::Window(const Frame& frame, const std::string& title) : title_(title) {
     if (!glfwInit()) throw ContextError("no window can be opened: " + last_error());
-    const glm::ivec2 size = fitted(frame.size);
-    frame_.size = size;
+    const glm::ivec2 size = fitted(frame.size.value_or(usual_size));
     set_hints(true);
     glfwWindowHint(GLFW_MAXIMIZED, frame.maximised ? GLFW_TRUE : GLFW_FALSE);
     window_ = glfwCreateWindow(size.x, size.y, title.c_str(), nullptr, nullptr);
@@ -87,8 +89,8 @@ Window::Window(const Frame& frame, const std::string& title) : title_(title) {
         glfwTerminate();
         throw ContextError("no window with OpenGL 4.3 can be opened: " + error);
     }
-    glfwSetWindowSizeLimits(window_, 800, 500, GLFW_DONT_CARE, GLFW_DONT_CARE);
-    if (frame.place && !frame.maximised && on_screen(*frame.place, size))
+    set_size(frame.size);
+    if (frame.place && !frame.maximised && on_screen(*frame.place, *frame_.size))
         glfwSetWindowPos(window_, frame.place->x, frame.place->y);
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
@@ -113,6 +115,16 @@ Window::~Window() {
     ImGui::DestroyContext();
     glfwDestroyWindow(window_);
     glfwTerminate();
+}
+
+void Window::set_size(std::optional<glm::ivec2> wanted) {
+    const float scale = std::max(density() / pixels_per_unit().x, 1.0f);
+    const glm::ivec2 least = fitted(glm::ivec2(glm::vec2(least_size) * scale));
+    glfwSetWindowSizeLimits(window_, least.x, least.y, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    const glm::ivec2 size = glm::max(fitted(wanted.value_or(glm::ivec2(glm::vec2(usual_size) * scale))), least);
+    if (size != this->size() && !glfwGetWindowAttrib(window_, GLFW_MAXIMIZED))
+        glfwSetWindowSize(window_, size.x, size.y);
+    frame_.size = size;
 }
 
 Window::Input& Window::input_of(GLFWwindow* window) {

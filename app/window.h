@@ -20,7 +20,8 @@ class Window {
 public:
     /// Where and how large; what does not lie on a screen is put there.
     struct Frame {
-        glm::ivec2 size{1440, 900};  ///< when it is not maximised, screen coordinates
+        /// When it is not maximised, screen coordinates; none: what suits the display.
+        std::optional<glm::ivec2> size;
         std::optional<glm::ivec2> place;
         bool maximised = false;
     };
@@ -56,6 +57,8 @@ private:
         InputQueue queue;
         std::vector<std::filesystem::path> dropped;
     };
+    /// Gives it a size, and the least that panels have room in.
+    void set_size(std::optional<glm::ivec2> wanted);
     static Input& input_of(GLFWwindow* window);
     void install_callbacks();
 

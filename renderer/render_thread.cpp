@@ -39,7 +39,7 @@ constexpr auto longest_wait = std::chrono::milliseconds(150);
 constexpr std::uint64_t largest_live_scene = 32;
 
 struct Slot {
-    gl::Texture texture;
+    gl::Texture texture, other;
     GLsync fence = nullptr;
     RenderedPicture picture;
 };
@@ -271,6 +271,7 @@ void RenderThread::State::update(Tier tier, Id tuned) {
     const glm::ivec2 last_size = options.size;
     options.size = quick() ? quick_size() : current.size;
     options.view = current.view;
+    options.other = current.other;
     options.samples = quick() ? 1 : 0;
     options.measure_bounces = !quick();
     if (milliseconds_per_pixel_sample > 0.0)
@@ -283,8 +284,11 @@ void RenderThread::State::update(Tier tier, Id tuned) {
     try {
         // The filter's width in the picture stays: a level less for each halving of the resolution.
         Scene scene = *current.scene;
-        int& levels = scene.settings.blur_levels;
-        for (int width = options.size.x; 2 * width <= current.size.x && levels > 1; width *= 2) --levels;
+        const auto narrow = [&](int& levels) {
+            for (int width = options.size.x; 2 * width <= current.size.x && levels > 1; width *= 2) --levels;
+        };
+        narrow(scene.settings.blur_levels);
+        if (options.other) narrow(options.other->blur_levels);
         renderer->update(scene, options);
         unshown = true;
     } catch (const std::exception& failure) {
@@ -429,10 +433,17 @@ void RenderThread::State::show() {
         while (free == ready || free == held) ++free;
     }
     Slot& slot = slots[static_cast<std::size_t>(free)];
-    if (!slot.texture || slot.texture.size() != renderer->size())
-        slot.texture = gl::Texture("picture", GL_RGBA8, renderer->size());
+    const auto fit = [&](gl::Texture& texture) {
+        if (!texture || texture.size() != renderer->size())
+            texture = gl::Texture("picture", GL_RGBA8, renderer->size());
+    };
+    fit(slot.texture);
+    if (options.other)
+        fit(slot.other);
+    else
+        slot.other = {};
     const Clock::time_point start = Clock::now();
-    dropped = !renderer->display(slot.texture, [this] { return outdated(); });
+    dropped = !renderer->display(slot.texture, slot.other, [this] { return outdated(); });
     unshown = dropped;
     if (dropped) return;
     shown_samples = renderer->statistics().samples;
@@ -440,6 +451,7 @@ void RenderThread::State::show() {
     slot.fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     glFlush();
     slot.picture.texture = slot.texture.name();
+    slot.picture.other = slot.other.name();
     slot.picture.size = renderer->size();
     slot.picture.serial = ++serial;
     shown_time = Clock::now();

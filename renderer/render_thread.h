@@ -21,9 +21,10 @@ struct RenderRequest {
     std::shared_ptr<const Scene> scene;  ///< null: nothing is rendered
     glm::ivec2 size{0};                  ///< pixels
     View view = View::result;
-    Id tuned = 0;              ///< the node whose parameters are likely to be moved next: the selected one
-    bool interacting = false;  ///< a hand is moving something: quick pictures, smaller if they must be
-    int max_frames = 0;        ///< stop after so many accumulated frames; 0: go on for ever
+    std::optional<Look> other = {};  ///< shown beside it, off the same samples
+    Id tuned = 0;                    ///< the node whose parameters are likely to be moved next: the selected one
+    bool interacting = false;        ///< a hand is moving something: quick pictures, smaller if they must be
+    int max_frames = 0;              ///< stop after so many accumulated frames; 0: go on for ever
 };
 
 /// The picture as a file, in full size, as soon as there is one.
@@ -40,6 +41,7 @@ struct WrittenPicture {
 
 struct RenderedPicture {
     unsigned texture = 0;  ///< RGBA8, display-ready, row 0 at the top; 0 until the first picture is there
+    unsigned other = 0;    ///< the same with the other look; 0 where none was asked for
     glm::ivec2 size{0};
     std::uint64_t serial = 0;  ///< counts pictures
     Statistics statistics;

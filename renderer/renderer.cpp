@@ -259,22 +259,34 @@ void Renderer::render_frame() {
     while (!step()) {}
 }
 
-bool Renderer::synthesise(View view, const std::function<bool()>& stop) {
+const gl::Texture* Renderer::filter(const Look& look, const std::function<bool()>& stop) {
     frame_.bind_uniform(binding::frame);
     targets_->bind();
-    const Settings& settings = scene_.settings;
-    const bool split = settings.method == Method::farfield;
-    if (split && !wavelet_pass_.run(*targets_, settings.blur_levels, stop)) return false;
-    const gl::Texture& filtered =
-        split ? targets_->levels.back().far : filter_pass_.run(*targets_, settings.blur_levels);
-    synthesis_pass_.run(*targets_, filtered, targets_->estimates[0], static_cast<int>(view), settings.method,
-                        completed_cameras_);
-    return true;
+    if (look.method != Method::farfield) return &filter_pass_.run(*targets_, look.blur_levels);
+    return wavelet_pass_.run(*targets_, look.blur_levels, stop) ? &targets_->levels.back().far : nullptr;
 }
 
-bool Renderer::display(const gl::Texture& output, const std::function<bool()>& stop) {
-    if (!synthesise(options_.view, stop)) return false;
-    display_pass_.run(*targets_, output, static_cast<int>(options_.view), scene_.settings.exposure);
+void Renderer::synthesise(const Look& look, const gl::Texture& filtered) {
+    synthesis_pass_.run(*targets_, filtered, targets_->estimates[0], static_cast<int>(look.view), look.method,
+                        completed_cameras_);
+}
+
+bool Renderer::display(const gl::Texture& output, const gl::Texture& other, const std::function<bool()>& stop) {
+    const auto show = [&](const Look& look, const gl::Texture& filtered, const gl::Texture& to) {
+        synthesise(look, filtered);
+        display_pass_.run(*targets_, to, static_cast<int>(look.view), scene_.settings.exposure);
+    };
+    const Look own = own_look(options_.view);
+    const gl::Texture* filtered = filter(own, stop);
+    if (!filtered) return false;
+    show(own, *filtered, output);
+    if (!options_.other || !other) return true;
+    const Look& look = *options_.other;
+    const bool same_filter =
+        (look.method == Method::farfield) == (own.method == Method::farfield) && look.blur_levels == own.blur_levels;
+    if (!same_filter) filtered = filter(look, stop);
+    if (!filtered) return false;
+    show(look, *filtered, other);
     return true;
 }
 
@@ -290,7 +302,8 @@ std::vector<unsigned char> Renderer::display_pixels() {
 }
 
 Image Renderer::read(View view) {
-    synthesise(view);
+    const Look look = own_look(view);
+    synthesise(look, *filter(look));
     Image image{options_.size, std::vector<float>(targets_->pixels() * 3)};
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     targets_->view.bind(0);

@@ -25,6 +25,7 @@ inline constexpr int most_bounces = 8;  ///< that automatic bounces come to
 struct FrameOptions {
     glm::ivec2 size{512, 512};
     View view = View::result;
+    std::optional<Look> other = {};  ///< displayed beside the scene's own, to compare
     std::uint32_t seed = 0;
     Tier tier = Tier::specialised;  ///< live: no parameter edit needs a new program
     Id tuned = 0;                   ///< node with live parameters in the specialised tier
@@ -74,9 +75,9 @@ public:
     bool displayable() const;
     void render_frame();
 
-    /// The current view in 8 bits, into a texture of the picture's size. `stop` is asked now and then; false when it
-    /// said so, and the texture is as it was.
-    bool display(const gl::Texture& output, const std::function<bool()>& stop = {});
+    /// The current view in 8 bits, into a texture of the picture's size, and the other look into `other`, where there
+    /// is one. `stop` is asked now and then; false when it said so, and neither is to be shown.
+    bool display(const gl::Texture& output, const gl::Texture& other = {}, const std::function<bool()>& stop = {});
     std::vector<unsigned char> display_pixels();  ///< RGB, row 0 at the top
     Image read(View view);                        ///< linear
 
@@ -87,14 +88,20 @@ private:
     void note_compiles();
     void begin_frame();
     void finish_frame();
-    bool synthesise(View view, const std::function<bool()>& stop = {});
+    Look own_look(View view) const { return {view, scene_.settings.method, scene_.settings.blur_levels}; }
+    /// Far light as the look's method averages it; null when `stop` said so.
+    const gl::Texture* filter(const Look& look, const std::function<bool()>& stop = {});
+    void synthesise(const Look& look, const gl::Texture& filtered);
     Work next_work() const;
     int bounces() const { return scene_.settings.bounces > 0 ? scene_.settings.bounces : automatic_bounces_; }
     void measure_bounces();
     /// For each far-light sample. One ray alone answers black or white, so the first sample takes more: a first picture
     /// without speckle for a few percent of its time.
     unsigned occlusion_rays() const {
-        const bool shown = scene_.settings.method == Method::paper || options_.view == View::occlusion;
+        const auto shows = [](const Look& look) {
+            return look.method == Method::paper || look.view == View::occlusion;
+        };
+        const bool shown = shows(own_look(options_.view)) || (options_.other && shows(*options_.other));
         return !shown && !options_.occlusion ? 0 : occlusion_samples_ == 0 ? 4 : 1;
     }
 

@@ -1,6 +1,8 @@
 // What the renderer can show: the six pictures of the paper (Gruzdev, Frolov, Ignatenko, figures a-f) and diagnostics.
 #pragma once
 
+#include "sdf/scene.h"
+
 #include <optional>
 #include <span>
 #include <string_view>
@@ -31,6 +33,14 @@ inline constexpr ViewInfo view_table[] = {
     {View::depth, "depth", "Depth", "Distance from the camera in metres; the display maps it to near white, far black"},
     {View::steps, "steps", "Step count",
      "Distance evaluations of the camera ray; the display maps 0 to black and 128 to white"},
+};
+
+/// What is made of the accumulated samples: every look is made of the same ones.
+struct Look {
+    View view = View::result;
+    Method method = Method::farfield;
+    int blur_levels = 3;
+    friend bool operator==(const Look&, const Look&) = default;
 };
 
 inline std::span<const ViewInfo> views() { return view_table; }

@@ -18,7 +18,7 @@ struct SetValue {
     std::string key;
     glm::vec3 value;
 };
-/// Nodes, materials and lights. Names are unique within their type; a node's name may be empty.
+/// Nodes, materials, lights and bookmarks. Names are unique within their type; a node's name may be empty.
 struct SetName {
     ObjectRef object;
     std::string name;
@@ -110,6 +110,16 @@ struct AddLight {
 struct RemoveLight {
     Id light;
 };
+struct AddBookmark {
+    Bookmark bookmark;
+};  ///< gets a fresh id and a free name
+struct RemoveBookmark {
+    Id bookmark;
+};
+struct MoveBookmark {
+    Id bookmark;
+    int index;
+};  ///< in the list, once it is there
 
 /// Of a custom node: values whose key both codes declare are kept, brought into their range. Refused with all errors,
 /// each with its line, where the text is no distance function.
@@ -120,7 +130,8 @@ struct SetCode {
 
 using Edit = std::variant<SetValue, SetName, SetKind, SetLightKind, SetMaterial, SetHidden, SetLocked, InsertNode,
                           InsertExcerpt, RemoveNode, MoveNode, WrapNodes, DissolveNode, ShowOnly, SetDefinition,
-                          MakeDefinition, MakeIndependent, AddMaterial, RemoveMaterial, AddLight, RemoveLight, SetCode>;
+                          MakeDefinition, MakeIndependent, AddMaterial, RemoveMaterial, AddLight, RemoveLight,
+                          AddBookmark, RemoveBookmark, MoveBookmark, SetCode>;
 using Edits = std::vector<Edit>;
 
 struct EditError : std::runtime_error {

@@ -44,6 +44,8 @@ std::string object_name(const Scene& scene, ObjectRef object) {
             return "sky";
         case ObjectType::camera:
             return "camera";
+        case ObjectType::bookmark:
+            return name_in(scene.bookmarks, object.id);
         case ObjectType::settings:
             return "settings";
     }
@@ -102,6 +104,13 @@ std::string describe(const Scene& before, const Edit& edit) {
             },
             [&](const AddLight&) { return std::string("add light"); },
             [&](const SetCode& e) { return fmt::format("code of {}", node_name(before, e.node)); },
+            [&](const AddBookmark&) { return std::string("add bookmark"); },
+            [&](const RemoveBookmark& e) {
+                return fmt::format("delete bookmark {}", name_in(before.bookmarks, e.bookmark));
+            },
+            [&](const MoveBookmark& e) {
+                return fmt::format("move bookmark {}", name_in(before.bookmarks, e.bookmark));
+            },
             [&](const RemoveLight& e) { return fmt::format("delete light {}", name_in(before.lights, e.light)); },
         },
         edit);

@@ -1,4 +1,5 @@
-// Edits of what an object is: its values, name, kind, material, code; and of the lists of materials and lights.
+// Edits of what an object is: its values, name, kind, material, code; and of the lists of materials,
+// lights and bookmarks.
 #include "sdf/edit_steps.h"
 
 #include "sdf/custom_code.h"
@@ -70,8 +71,11 @@ Id apply_one(Scene& scene, const SetName& e) {
         case ObjectType::light:
             rename(scene.lights, e.object.id, e.name, "light");
             return 0;
+        case ObjectType::bookmark:
+            rename(scene.bookmarks, e.object.id, e.name, "bookmark");
+            return 0;
         default:
-            throw EditError("only nodes, materials and lights have names");
+            throw EditError("only nodes, materials, lights and bookmarks have names");
     }
 }
 
@@ -178,6 +182,35 @@ Id apply_one(Scene& scene, const AddLight& e) {
 Id apply_one(Scene& scene, const RemoveLight& e) {
     const Light& light = item_for(scene.lights, e.light, "light");
     scene.lights.erase(scene.lights.begin() + (&light - scene.lights.data()));
+    return 0;
+}
+
+Id apply_one(Scene& scene, const AddBookmark& e) {
+    check_name(e.bookmark.name);
+    check_fields(e.bookmark.camera);
+    Bookmark bookmark = e.bookmark;
+    bookmark.id = scene.new_id();
+    bookmark.name = free_name(names_of(scene.bookmarks), bookmark.name.empty() ? "view" : bookmark.name);
+    scene.bookmarks.push_back(std::move(bookmark));
+    return scene.bookmarks.back().id;
+}
+
+Id apply_one(Scene& scene, const RemoveBookmark& e) {
+    const Bookmark& bookmark = item_for(scene.bookmarks, e.bookmark, "bookmark");
+    scene.bookmarks.erase(scene.bookmarks.begin() + (&bookmark - scene.bookmarks.data()));
+    return 0;
+}
+
+Id apply_one(Scene& scene, const MoveBookmark& e) {
+    const Bookmark& bookmark = item_for(scene.bookmarks, e.bookmark, "bookmark");
+    if (e.index < 0 || e.index >= std::ssize(scene.bookmarks))
+        throw EditError(fmt::format("there is no place {} among {} bookmarks", e.index, scene.bookmarks.size()));
+    const auto from = scene.bookmarks.begin() + (&bookmark - scene.bookmarks.data());
+    const auto to = scene.bookmarks.begin() + e.index;
+    if (from < to)
+        std::rotate(from, from + 1, to + 1);
+    else
+        std::rotate(to, from, from + 1);
     return 0;
 }
 

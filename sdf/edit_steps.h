@@ -85,5 +85,8 @@ Id apply_one(Scene& scene, const AddMaterial& e);
 Id apply_one(Scene& scene, const RemoveMaterial& e);
 Id apply_one(Scene& scene, const AddLight& e);
 Id apply_one(Scene& scene, const RemoveLight& e);
+Id apply_one(Scene& scene, const AddBookmark& e);
+Id apply_one(Scene& scene, const RemoveBookmark& e);
+Id apply_one(Scene& scene, const MoveBookmark& e);
 
 }  // namespace farfield

@@ -34,7 +34,6 @@ Field<T> field(Parameter parameter) {
 }
 
 constexpr float big = largest_value;
-constexpr const char* method_names[] = {"paper", "farfield", "reference"};
 using P = ParameterType;
 
 }  // namespace
@@ -107,7 +106,7 @@ std::span<const Field<Settings>> fields<Settings>() {
              0.0f,
              2.0f,
              {},
-             method_names}),
+             method_keys}),
         field<&Settings::samples>(
             {"samples", "Hemisphere rays per pixel and frame", P::integer, Unit::none, 1.0f, 64.0f}),
         field<&Settings::bounces>({"bounces",
@@ -138,7 +137,8 @@ bool applies(const Light& light, std::string_view key) {
 
 namespace {
 
-/// Calls `visit(object)` with the addressed node, material, light, sky, camera or settings. False for an unknown id.
+/// Calls `visit(object)` with the addressed node, material, light, sky, camera or settings; with a bookmark's
+/// camera for that. False for an unknown id.
 template <class S, class Visitor>
 bool visit_object(S& scene, ObjectRef ref, Visitor visit) {
     switch (ref.type) {
@@ -157,6 +157,10 @@ bool visit_object(S& scene, ObjectRef ref, Visitor visit) {
             return visit(scene.sky), true;
         case ObjectType::camera:
             return visit(scene.camera), true;
+        case ObjectType::bookmark:
+            for (auto& bookmark : scene.bookmarks)
+                if (bookmark.id == ref.id) return visit(bookmark.camera), true;
+            return false;
         case ObjectType::settings:
             return visit(scene.settings), true;
     }

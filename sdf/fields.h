@@ -24,16 +24,16 @@ std::span<const Field<T>> fields();
 
 bool applies(const Light& light, std::string_view key);
 
-enum class ObjectType { node, material, light, sky, camera, settings };
+enum class ObjectType { node, material, light, sky, camera, bookmark, settings };
 
 struct ObjectRef {
     ObjectType type = ObjectType::node;
-    Id id = 0;  ///< of the node, material or light; 0 for the others
+    Id id = 0;  ///< of the node, material, light or bookmark; 0 for the others
     friend bool operator==(const ObjectRef&, const ObjectRef&) = default;
 };
 
 /// The values an object has, in the order to show and save them. A node has its kind's parameters, then translate,
-/// rotate and scale. Empty for unknown ids.
+/// rotate and scale; a bookmark those of its camera. Empty for unknown ids.
 std::vector<Parameter> parameters(const Scene& scene, ObjectRef object);
 
 /// Throws std::out_of_range for an unknown object or key.

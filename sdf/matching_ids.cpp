@@ -75,10 +75,12 @@ Scene with_ids_of(Scene scene, const Scene& old) {
     for (const Node& definition : scene.definitions) ids.match(definition, nullptr);
     ids.match_names(scene.materials, old.materials);
     ids.match_names(scene.lights, old.lights);
+    ids.match_names(scene.bookmarks, old.bookmarks);
     rename(scene.root, ids);
     for (Node& definition : scene.definitions) rename(definition, ids);
     for (Material& material : scene.materials) material.id = ids[material.id];
     for (Light& light : scene.lights) light.id = ids[light.id];
+    for (Bookmark& bookmark : scene.bookmarks) bookmark.id = ids[bookmark.id];
     scene.next_id = ids.next_id();
     return scene;
 }

@@ -25,6 +25,7 @@ Scene without_nodes(const Scene& scene) {
     rest.lights = scene.lights;
     rest.sky = scene.sky;
     rest.camera = scene.camera;
+    rest.bookmarks = scene.bookmarks;
     rest.settings = scene.settings;
     rest.schema = scene.schema;
     return rest;
@@ -32,7 +33,7 @@ Scene without_nodes(const Scene& scene) {
 
 bool equal_beside_nodes(const Scene& a, const Scene& b) {
     return a.materials == b.materials && a.lights == b.lights && a.sky == b.sky && a.camera == b.camera &&
-           a.settings == b.settings && a.schema == b.schema;
+           a.bookmarks == b.bookmarks && a.settings == b.settings && a.schema == b.schema;
 }
 
 }  // namespace

@@ -200,6 +200,7 @@ std::vector<Id> topmost(const Scene& scene, const std::vector<Id>& nodes) {
 }
 const Material* find_material(const Scene& scene, Id id) { return find_by_id(scene.materials, id); }
 const Light* find_light(const Scene& scene, Id id) { return find_by_id(scene.lights, id); }
+const Bookmark* find_bookmark(const Scene& scene, Id id) { return find_by_id(scene.bookmarks, id); }
 const Node* find_definition(const Scene& scene, Id id) { return find_by_id(scene.definitions, id); }
 
 std::string display_name(const Node& node) { return node.name.empty() ? info(node.kind).label : node.name; }

@@ -19,7 +19,7 @@ namespace farfield {
 
 class CustomCode;
 
-/// Identifies a node, material or light for the life of the document; never reused, 0 means none. Not saved.
+/// Identifies a node, material, light or bookmark for the life of the document; never reused, 0 means none. Not saved.
 using Id = std::uint32_t;
 
 /// Places a node in its parent's frame: scale first, then rotate, then translate.
@@ -87,7 +87,16 @@ struct Camera {
     friend bool operator==(const Camera&, const Camera&) = default;
 };
 
+/// A view to come back to.
+struct Bookmark {
+    Id id = 0;
+    std::string name;  ///< unique, not empty
+    Camera camera;
+    friend bool operator==(const Bookmark&, const Bookmark&) = default;
+};
+
 enum class Method { paper, farfield, reference };
+inline constexpr const char* method_keys[] = {"paper", "farfield", "reference"};  ///< in files
 
 /// How the scene is rendered; saved with it, because a good AO radius or exposure belongs to the scene.
 struct Settings {
@@ -107,6 +116,7 @@ struct Scene {
     std::vector<Light> lights;
     Sky sky;
     Camera camera;
+    std::vector<Bookmark> bookmarks;
     Settings settings;
     std::string schema;  ///< "$schema" of the file, for editors of text: kept as it is, not used
     Id next_id = 1;
@@ -136,6 +146,7 @@ const Node* find_top(const Scene& scene, Id id);
 std::vector<Id> topmost(const Scene& scene, const std::vector<Id>& nodes);
 const Material* find_material(const Scene& scene, Id id);
 const Light* find_light(const Scene& scene, Id id);
+const Bookmark* find_bookmark(const Scene& scene, Id id);
 /// Null for ids of anything but a definition.
 const Node* find_definition(const Scene& scene, Id id);
 

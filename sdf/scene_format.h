@@ -11,6 +11,7 @@ inline constexpr int version = 1;
 inline constexpr const char* schema = "$schema";
 inline constexpr const char* version_key = "farfield";
 inline constexpr const char* camera = "camera";
+inline constexpr const char* bookmarks = "bookmarks";
 inline constexpr const char* settings = "settings";
 inline constexpr const char* sky = "sky";
 inline constexpr const char* materials = "materials";

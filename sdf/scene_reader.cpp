@@ -35,14 +35,16 @@ public:
         const Json::Object& object = object_in(document, top, "a scene");
         check_version(document, top);
         check_keys(object, top,
-                   {format::schema, format::version_key, format::camera, format::settings, format::sky,
-                    format::materials, format::lights, format::definitions, format::root});
+                   {format::schema, format::version_key, format::camera, format::bookmarks, format::settings,
+                    format::sky, format::materials, format::lights, format::definitions, format::root});
         if (const Json* schema = document.find(format::schema)) {
             const auto* text = schema->as<std::string>();
             if (!text) unexpected({&top, format::schema}, *schema, "a text, where the format's JSON Schema is");
             scene_.schema = *text;
         }
         read_section(document, top, format::camera, scene_.camera);
+        if (const Json* bookmarks = document.find(format::bookmarks))
+            read_bookmarks(*bookmarks, {&top, format::bookmarks});
         read_section(document, top, format::settings, scene_.settings);
         read_section(document, top, format::sky, scene_.sky);
         if (const Json* materials = document.find(format::materials))
@@ -191,6 +193,18 @@ private:
         const JsonPath path{&top, key};
         object_in(*json, path, fmt::format("the {}", key));
         read_object(*json, path, target, {}, always);
+    }
+
+    void read_bookmarks(const Json& json, const JsonPath& path) {
+        for (const JsonMember& member : object_in(json, path, "the bookmarks by name")) {
+            const JsonPath here{&path, member.key};
+            check_name(member.key, here, member.line);
+            object_in(member.value, here, "a camera");
+            Bookmark& bookmark = scene_.bookmarks.emplace_back();
+            bookmark.id = scene_.new_id();
+            bookmark.name = member.key;
+            read_object(member.value, here, bookmark.camera, {}, always);
+        }
     }
 
     void read_materials(const Json& json, const JsonPath& path) {

@@ -152,6 +152,7 @@ Schema definitions() {
                    {"type", "string"},
                    {"minLength", 1},
                    {"not", {{"pattern", "[\\u0000-\\u001f\\u007f]"}}}};
+    all["camera"] = section<Camera>("Where the picture is taken from");
     all["material"] = section<Material>("How a surface reflects and emits light");
     all["light"] = by_kind("A light", {std::begin(light_kind_keys), std::end(light_kind_keys)}, {});
     for (std::size_t i = 0; i < std::size(light_kind_keys); ++i)
@@ -165,7 +166,11 @@ Schema scene() {
     Schema properties;
     properties[format::schema] = {{"description", "Where an editor of text finds this schema"}, {"type", "string"}};
     properties[format::version_key] = {{"description", "Version of the format"}, {"const", format::version}};
-    properties[format::camera] = section<Camera>("Where the picture is taken from");
+    properties[format::camera] = reference("camera");
+    properties[format::bookmarks] = {{"description", "Cameras to come back to, by name"},
+                                     {"type", "object"},
+                                     {"propertyNames", reference("name")},
+                                     {"additionalProperties", reference("camera")}};
     properties[format::settings] = section<Settings>("How it is rendered");
     properties[format::sky] = section<Sky>("Radiance from where there is nothing");
     properties[format::materials] = {

@@ -37,6 +37,15 @@ public:
         if (!scene.schema.empty()) line(format::schema, text_of(scene.schema));
         line(format::version_key, fmt::format("{}", format::version));
         section(format::camera, scene.camera);
+        if (!scene.bookmarks.empty()) {
+            begin(format::bookmarks, '{');
+            for (const Bookmark& bookmark : scene.bookmarks) {
+                begin(bookmark.name, '{');
+                all_fields(bookmark.camera);
+                end('}');
+            }
+            end('}');
+        }
         section(format::settings, scene.settings);
         section(format::sky, scene.sky);
         begin(format::materials, '{');

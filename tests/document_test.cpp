@@ -86,6 +86,7 @@ TEST(MatchingIds, ASceneThatWasReadAgainIsTheSame) {
         EXPECT_EQ(all_ids(read), all_ids(scene)) << seed;
         for (std::size_t i = 0; i < scene.materials.size(); ++i) EXPECT_EQ(read.materials[i].id, scene.materials[i].id);
         for (std::size_t i = 0; i < scene.lights.size(); ++i) EXPECT_EQ(read.lights[i].id, scene.lights[i].id);
+        EXPECT_EQ(read.bookmarks, scene.bookmarks);
     }
 }
 
@@ -104,6 +105,7 @@ TEST(MatchingIds, ObjectsKeepTheirIdsAmongOthersAndIdsAreUnique) {
         std::vector<Id> ids = all_ids(matched);
         for (const Material& m : matched.materials) ids.push_back(m.id);
         for (const Light& l : matched.lights) ids.push_back(l.id);
+        for (const Bookmark& b : matched.bookmarks) ids.push_back(b.id);
         const std::size_t count = ids.size();
         std::sort(ids.begin(), ids.end());
         EXPECT_EQ(std::unique(ids.begin(), ids.end()) - ids.begin(), static_cast<std::ptrdiff_t>(count));

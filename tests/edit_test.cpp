@@ -79,6 +79,9 @@ TEST(Edit, LeavesTheSceneUntouchedOnError) {
         RemoveMaterial{s.scene.materials[0].id},
         AddLight{without_direction},
         RemoveLight{4242},
+        AddBookmark{{0, "wide", {.field_of_view = 171.0f}}},
+        RemoveBookmark{4242},
+        MoveBookmark{4242, 0},
     };
     const std::string before = to_text(s.scene);
     const Id next = s.scene.next_id;
@@ -87,6 +90,40 @@ TEST(Edit, LeavesTheSceneUntouchedOnError) {
         EXPECT_EQ(to_text(s.scene), before) << describe(s.scene, edit);
         EXPECT_EQ(s.scene.next_id, next) << describe(s.scene, edit);
     }
+}
+
+TEST(Edit, BookmarksAreAddedRenamedUpdatedMovedAndDeleted) {
+    Scene scene;
+    Camera wide;
+    wide.field_of_view = 90.0f;
+    const Id first = apply(scene, AddBookmark{}), second = apply(scene, AddBookmark{{0, "", wide}}),
+             third = apply(scene, AddBookmark{{0, "door", wide}});
+    const auto order = [&] {
+        std::vector<Id> ids;
+        for (const Bookmark& bookmark : scene.bookmarks) ids.push_back(bookmark.id);
+        return ids;
+    };
+    EXPECT_EQ(order(), (std::vector<Id>{first, second, third}));
+    EXPECT_EQ(find_bookmark(scene, second)->name, "view 2");
+    EXPECT_EQ(find_bookmark(scene, second)->camera, wide);
+    EXPECT_EQ(scene.camera, Camera{});
+
+    const ObjectRef door{ObjectType::bookmark, third};
+    EXPECT_THROW(apply(scene, SetName{door, "view"}), EditError);
+    EXPECT_THROW(apply(scene, SetName{door, ""}), EditError);
+    apply(scene, SetName{door, "window"});
+    apply(scene, SetValue{door, "field_of_view", glm::vec3(20.0f, 0.0f, 0.0f)});
+    EXPECT_THROW(apply(scene, SetValue{door, "field_of_view", glm::vec3(0.0f)}), EditError);
+    EXPECT_EQ(find_bookmark(scene, third)->name, "window");
+    EXPECT_EQ(find_bookmark(scene, third)->camera.field_of_view, 20.0f);
+
+    apply(scene, MoveBookmark{third, 0});
+    EXPECT_EQ(order(), (std::vector<Id>{third, first, second}));
+    apply(scene, MoveBookmark{third, 1});
+    EXPECT_EQ(order(), (std::vector<Id>{first, third, second}));
+    for (const int index : {-1, 3}) EXPECT_THROW(apply(scene, MoveBookmark{third, index}), EditError);
+    apply(scene, RemoveBookmark{first});
+    EXPECT_EQ(order(), (std::vector<Id>{third, second}));
 }
 
 TEST(Edit, RefusesToMoveANodeBelowItself) {

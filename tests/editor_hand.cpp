@@ -61,7 +61,7 @@ Hand::Hand(unsigned seed) : random_(seed) {
     for (int key = ' '; key <= GLFW_KEY_LAST; ++key)
         for (int modifiers = 0; modifiers < 8; ++modifiers) {
             const KeyPress press{key, (modifiers & 1) != 0, (modifiers & 2) != 0, (modifiers & 4) != 0};
-            if (command_for(press) || view_for(press)) commands_.push_back(press);
+            if (command_for(press) || view_for(press) || bookmark_for(press)) commands_.push_back(press);
         }
 }
 

@@ -13,17 +13,19 @@ namespace fs = std::filesystem;
 
 TEST(EditorState, IsReadAsItWasWritten) {
     EditorState state;
-    state.size = {1000, 700};
+    state.size = glm::ivec2(1000, 700);
     state.place = glm::ivec2(-5, 30);
     state.panels.left = 312.5f;
     state.code = state.newest_first = true;
     state.statistics = false;
+    state.split = {.on = true, .divider = 0.25f, .method = {}, .view = View::coarse, .blur_levels = 5};
     state.recent = {"/a/b.json", "/c.json"};
     const EditorState read = parse_editor_state(to_text(state));
     EXPECT_EQ(to_text(read), to_text(state));
     EXPECT_EQ(read.place, state.place);
     EXPECT_EQ(read.recent, state.recent);
     EXPECT_TRUE(read.code);
+    EXPECT_EQ(read.split, state.split);
 }
 
 TEST(EditorState, WhatMakesNoSenseIsAsAtTheFirstRun) {
@@ -32,8 +34,9 @@ TEST(EditorState, WhatMakesNoSenseIsAsAtTheFirstRun) {
          {"", "{", "[]", "7", "null", R"({"window": []})", R"({"window": {"size": [1e99, 4]}})",
           R"({"window": {"size": [0, -1], "place": ["a", 1]}})", R"({"window": {"size": [1, 2, 3]}})",
           R"({"panels": {"left": -1, "right": 1e30, "objects": null, "settings": "x"}})",
-          R"({"code": 1, "statistics": "no", "recent": {}})", R"({"recent": [1, null, "relative.json", ""]})",
-          "\xff\xfe"})
+          R"({"code": 1, "statistics": "no", "recent": {}})", R"({"split": 1})",
+          R"({"split": {"on": 1, "divider": 0, "method": "x", "view": "y", "blur_levels": 1e9}})",
+          R"({"recent": [1, null, "relative.json", ""]})", "\xff\xfe"})
         EXPECT_EQ(to_text(parse_editor_state(text)), first) << text;
     EXPECT_EQ(parse_editor_state(R"({"window": 3, "code": true})").code, true) << "the rest counts";
     EXPECT_EQ(to_text(load_editor_state("/nosuch")), first);

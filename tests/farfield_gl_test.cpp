@@ -355,11 +355,11 @@ TEST_F(Farfield, AnInterruptedPictureLeavesNoTrace) {
     renderer_->render_frame();
     for (const int last : {1, 2, 6}) {
         int asked = 0;
-        EXPECT_FALSE(renderer_->display(texture, [&] { return ++asked == last; }));
+        EXPECT_FALSE(renderer_->display(texture, {}, [&] { return ++asked == last; }));
         EXPECT_EQ(asked, last);
         EXPECT_EQ(pixels(), whole);
     }
-    ASSERT_TRUE(renderer_->display(texture, [] { return false; }));
+    ASSERT_TRUE(renderer_->display(texture, {}, [] { return false; }));
     EXPECT_EQ(pixels(), renderer_->display_pixels());
     EXPECT_NE(pixels(), whole);
 }

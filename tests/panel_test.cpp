@@ -87,6 +87,18 @@ TEST(KindMenu, FindsKindsByWhatIsTyped) {
         {"union", "union"},
         {"stairs u", "stairs_union"},
         {"waves", "displace_sine"},
+        // What they are called elsewhere.
+        {"smooth", "union"},
+        {"smin", "union"},
+        {"smooth sub", "subtract"},
+        {"difference", "subtract"},
+        {"intersection", "intersect"},
+        {"cube", "box"},
+        {"array", "repeat"},
+        {"radial", "polar_repeat"},
+        {"lathe", "revolve"},
+        {"onion", "shell"},
+        {"glsl", "custom"},
     };
     for (const auto& [text, key] : first) {
         ASSERT_FALSE(found_kinds(text).empty()) << text;

@@ -192,6 +192,62 @@ TEST_F(Render, ViewEditsKeepAllSamples) {
     EXPECT_EQ(renderer_->statistics().samples, samples + 2);
 }
 
+/// The pixels of a texture, as the screen shows them.
+std::vector<unsigned char> pixels_of(const gl::Texture& texture) {
+    std::vector<unsigned char> rgb(static_cast<std::size_t>(texture.size().x) * texture.size().y * 3);
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    texture.bind(0);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+    return rgb;
+}
+
+TEST_F(Render, BothHalvesOfASplitPictureAreThePicturesOfTheirSettings) {
+    const Scene scene = bundled("cornell");
+    const Look own{View::result, scene.settings.method, scene.settings.blur_levels};
+    const auto with = [&](const Look& look) {
+        Scene changed = scene;
+        changed.settings.method = look.method;
+        changed.settings.blur_levels = look.blur_levels;
+        FrameOptions options = small;
+        options.view = look.view;
+        options.occlusion = true;
+        use(ContextKind::automatic);
+        renderer_->update(changed, options);
+        for (int i = 0; i < 2; ++i) renderer_->render_frame();
+        return renderer_->display_pixels();
+    };
+    const std::vector<unsigned char> alone = with(own);
+    for (const Look& other : {Look{View::result, Method::paper, 3}, Look{View::result, Method::reference, 3},
+                              Look{View::direct, Method::farfield, 3}, Look{View::filtered, Method::farfield, 1},
+                              Look{View::occlusion, Method::farfield, 3}, own}) {
+        const std::vector<unsigned char> expected = with(other);
+        FrameOptions options = small;
+        options.other = other;
+        options.occlusion = true;
+        use(ContextKind::automatic);
+        renderer_->update(scene, options);
+        for (int i = 0; i < 2; ++i) renderer_->render_frame();
+        const gl::Texture left("left", GL_RGBA8, small.size), right("right", GL_RGBA8, small.size);
+        ASSERT_TRUE(renderer_->display(left, right));
+        EXPECT_EQ(pixels_of(left), alone);
+        EXPECT_EQ(pixels_of(right), expected);
+        EXPECT_EQ(renderer_->display_pixels(), alone) << "what is exported is the left half's";
+        EXPECT_EQ(expected == alone, other == own) << "the looks differ";
+    }
+}
+
+TEST_F(Render, AnotherLookKeepsAllSamples) {
+    const Scene scene = bundled("cornell");
+    render(scene, 1);
+    FrameOptions options = small;
+    for (const Method method : {Method::paper, Method::reference, Method::farfield}) {
+        options.other = Look{View::result, method, 2};
+        EXPECT_FALSE(renderer_->update(scene, options));
+        EXPECT_EQ(renderer_->statistics().frames, 1);
+    }
+}
+
 TEST_F(Render, AnotherAoRadiusKeepsTheFarLight) {
     Scene scene = bundled("cornell");
     render(scene, 2);

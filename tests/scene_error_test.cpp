@@ -145,10 +145,12 @@ TEST(SceneFileError, UnknownKey) {
     expect_error("\"radius\"", "\"raduis\"", 19, "root/children[0] \"ball\"/raduis",
                  "unknown key, expected one of kind, name, material, hidden, locked, radius, translate, rotate, scale "
                  "(perhaps radius)");
-    expect_error(
-        "\"camera\"", "\"kamera\"", 3, "kamera",
-        "unknown key, expected one of $schema, farfield, camera, settings, sky, materials, lights, definitions, root "
-        "(perhaps camera)");
+    expect_error("\"camera\"", "\"kamera\"", 3, "kamera",
+                 "unknown key, expected one of $schema, farfield, camera, bookmarks, settings, sky, materials, lights, "
+                 "definitions, root "
+                 "(perhaps camera)");
+    expect_error("\"materials\"", "\"bookmarks\": {\"door\": {\n\"zoom\": 1}},\n\"materials\"", 7,
+                 "bookmarks/door/zoom", "unknown key, expected one of position, target, field_of_view");
     expect_error("\"position\"", "\"zoom\"", 4, "camera/zoom",
                  "unknown key, expected one of position, target, field_of_view");
     expect_error("\"albedo\"", "\"color\"", 9, "materials/red/color",
@@ -220,6 +222,24 @@ TEST(SceneFileError, MissingFields) {
     expect_error("{\"farfield\": 1}", 1, "", "has no \"root\", expected the union that holds the scene's nodes");
     expect_error(R"({"farfield": 1, "materials": {}, "root": {"kind": "union"}})", 1, "materials",
                  "is empty, expected at least one material");
+}
+
+TEST(SceneFileError, Bookmarks) {
+    const auto with = [](std::string_view bookmarks) {
+        return replaced(small, "\"materials\"", "\"bookmarks\": " + std::string(bookmarks) + ",\n\"materials\"");
+    };
+    EXPECT_EQ(parse_scene(with("{\"a\": {}, \"b\": {\"field_of_view\": 20}}"), "a.json").bookmarks.size(), 2u);
+    expect_error(with("[]"), 6, "bookmarks",
+                 "found an array of 0, expected an object that describes the bookmarks by name");
+    expect_error(with("{\"a\":\n[]}"), 7, "bookmarks/a",
+                 "found an array of 0, expected an object that describes a camera");
+    expect_error(with("{\"\": {}}"), 6, "bookmarks", "the name is empty, expected at least one character");
+    expect_error(with("{\"a\": {},\n\"a\": {}}"), 7, "bookmarks/a",
+                 "is given twice, expected once (the first is on line 6)");
+    expect_error(with("{\"a\": {\n\"field_of_view\": 0}}"), 7, "bookmarks/a/field_of_view",
+                 "found 0, expected a number between 1 and 170");
+    expect_error(with("{\"a\": {\n\"position\": [0, 1e9, 0]}}"), 7, "bookmarks/a/position[1]",
+                 "found 1000000000, expected three numbers, each between -1e+06 and 1e+06");
 }
 
 TEST(SceneFileError, UnknownKind) {

@@ -32,6 +32,7 @@ TEST(SceneFile, IdsAreUniqueAndNotZero) {
     std::vector<Id> ids = all_ids(scene);
     for (const Material& material : scene.materials) ids.push_back(material.id);
     for (const Light& light : scene.lights) ids.push_back(light.id);
+    for (const Bookmark& bookmark : scene.bookmarks) ids.push_back(bookmark.id);
     std::sort(ids.begin(), ids.end());
     EXPECT_EQ(std::adjacent_find(ids.begin(), ids.end()), ids.end());
     EXPECT_GT(ids.front(), 0u);
@@ -97,6 +98,11 @@ TEST(SceneFile, EveryValueSurvivesSavingAndLoading) {
         ASSERT_EQ(before.lights.size(), after.lights.size());
         for (size_t i = 0; i < before.lights.size(); ++i)
             compare({ObjectType::light, before.lights[i].id}, {ObjectType::light, after.lights[i].id});
+        ASSERT_EQ(before.bookmarks.size(), after.bookmarks.size());
+        for (size_t i = 0; i < before.bookmarks.size(); ++i) {
+            compare({ObjectType::bookmark, before.bookmarks[i].id}, {ObjectType::bookmark, after.bookmarks[i].id});
+            EXPECT_EQ(before.bookmarks[i].name, after.bookmarks[i].name);
+        }
         for (ObjectType type : {ObjectType::sky, ObjectType::camera, ObjectType::settings})
             compare({type, 0}, {type, 0});
     }

@@ -85,9 +85,9 @@ TEST(SceneFormat, ReadmeShowsTheProgramsTables) {
 
 TEST(SceneFormat, ReadmeNamesEveryKey) {
     const std::string text = read_text(readme());
-    for (const char* key : {format::schema, format::version_key, format::camera, format::settings, format::sky,
-                            format::materials, format::lights, format::definitions, format::root, format::kind,
-                            format::name, format::of, format::material, format::children})
+    for (const char* key : {format::schema, format::version_key, format::camera, format::bookmarks, format::settings,
+                            format::sky, format::materials, format::lights, format::definitions, format::root,
+                            format::kind, format::name, format::of, format::material, format::children})
         EXPECT_NE(text.find(fmt::format("`{}`", key)), std::string::npos) << key;
     for (const char* kind : light_kind_keys)
         EXPECT_NE(text.find(fmt::format("\"{}\"", kind)), std::string::npos) << kind;

@@ -78,6 +78,7 @@ void expect_refused(const std::vector<std::string>& texts) {
 Json scene_with(Json node) {
     return {{"farfield", 1},
             {"camera", Json::object()},
+            {"bookmarks", {{"b", Json::object()}}},
             {"settings", Json::object()},
             {"sky", Json::object()},
             {"materials", {{"m", Json::object()}}},
@@ -97,6 +98,7 @@ void for_each_parameter(Visitor visit) {
     Light directional;
     directional.kind = LightKind::directional;
     visit_fields("/camera", Camera{}, always);
+    visit_fields("/bookmarks/b", Camera{}, always);
     visit_fields("/settings", Settings{}, always);
     visit_fields("/sky", Sky{}, always);
     visit_fields("/materials/m", Material{}, always);
@@ -204,8 +206,8 @@ TEST(SceneSchema, RefusesWrongStructure) {
         without.erase(key);
         texts.push_back(without.dump());
     }
-    for (const char* object :
-         {"", "/camera", "/settings", "/sky", "/materials/m", "/lights/p", "/lights/d", "/root", "/root/children/0"}) {
+    for (const char* object : {"", "/camera", "/bookmarks", "/bookmarks/b", "/settings", "/sky", "/materials/m",
+                               "/lights/p", "/lights/d", "/root", "/root/children/0"}) {
         add(fmt::format("{}/unknown", object).c_str(), 1);
         if (*object)
             for (const Json& wrong_type : {Json("text"), Json(1), Json::array(), Json(nullptr)})
@@ -215,7 +217,7 @@ TEST(SceneSchema, RefusesWrongStructure) {
     add("/$schema", 1);
     add("/materials", Json::object());
     for (const char* name : {"", "a\nb", "\n", "a\n", "\x7f"})
-        for (const char* list : {"materials", "lights"}) {
+        for (const char* list : {"materials", "lights", "bookmarks"}) {
             Json scene = good;
             scene[list][name] = list == std::string("lights") ? Json{{"kind", "point"}} : Json::object();
             texts.push_back(scene.dump());

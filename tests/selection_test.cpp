@@ -3,6 +3,7 @@
 #include "sdf/history.h"
 #include "sdf/scene_file.h"
 #include "tests/test_support.h"
+#include "ui/material_edits.h"
 #include "ui/selection.h"
 #include "ui/tree_edits.h"
 
@@ -217,6 +218,48 @@ TEST(TreeSearch, FindsNamesAndKindsWhateverTheirCase) {
     EXPECT_TRUE(found(s.e, "tor"));
     EXPECT_TRUE(found(s.e, ""));
     EXPECT_FALSE(found(s.e, "tor box"));
+}
+
+TEST(Selection, StaysWhenABookmarkIsAdded) {
+    Small s;
+    const Selection selection = select(Ids{s.a, s.b});
+    EXPECT_EQ(s.carry_out({AddBookmark{}}, selection), selection);
+}
+
+TEST(Materials, AreGivenToWhatIsSelectedOrToTheNodeTheyAreDroppedOn) {
+    Small s;
+    const Id red = apply(s.scene, AddMaterial{{0, "red"}});
+    const auto users = [&] { return material_users(s.scene, red); };
+    const Selection selection = select(Ids{s.c, s.a});
+    EXPECT_EQ(s.carry_out(give_material(s.scene, selection, red), selection), selection);
+    EXPECT_EQ(users(), (Ids{s.a, s.c}));
+    EXPECT_TRUE(give_material(s.scene, selection, red).empty()) << "they have it";
+    EXPECT_TRUE(give_material(s.scene, select(ObjectRef{ObjectType::material, red}), red).empty());
+
+    s.carry_out(drop_material(s.scene, selection, s.e, red), selection);
+    EXPECT_EQ(users(), (Ids{s.a, s.c, s.e})) << "on one that is not selected";
+    s.carry_out(drop_material(s.scene, select(Ids{s.b, s.d}), s.b, red), selection);
+    EXPECT_EQ(users(), (Ids{s.a, s.b, s.c, s.d, s.e})) << "on one of several that are";
+    EXPECT_EQ(material_uses(s.scene).at(red), 5);
+    EXPECT_FALSE(material_uses(s.scene).contains(s.scene.materials[0].id));
+}
+
+TEST(Materials, ANewOneIsTheNodesAndIsSelected) {
+    Small s;
+    const Selection both = select(Ids{s.a, s.b});
+    const Selection after = s.carry_out(for_all_selected(s.scene, both, new_material(s.scene, s.b)), both);
+    ASSERT_EQ(after.primary.type, ObjectType::material);
+    EXPECT_EQ(material_users(s.scene, after.primary.id), (Ids{s.a, s.b}));
+}
+
+TEST(Materials, WhatBecomesOfNodesWithoutTheirsIsSaid) {
+    Small s;
+    const Id first = s.scene.materials[0].id, red = apply(s.scene, AddMaterial{{0, "red"}});
+    EXPECT_EQ(without_material(s.scene, red, 0), "");
+    EXPECT_EQ(without_material(s.scene, red, 1), "Without it the node that has it takes the material of its group.");
+    EXPECT_EQ(without_material(s.scene, first, 0), "Nodes without any then have red.");
+    apply(s.scene, RemoveMaterial{first});
+    EXPECT_EQ(without_material(s.scene, red, 0), "The last material stays.");
 }
 
 TEST(SelectionHistory, UndoBringsBackWhatWasSelectedAtEachStep) {

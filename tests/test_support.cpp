@@ -226,6 +226,12 @@ Scene random_scene(unsigned seed, int nodes) {
             last = instance;
         }
     }
+    for (unsigned i = 0; i < seed % 4; ++i) {
+        Bookmark& bookmark = scene.bookmarks.emplace_back();
+        bookmark.id = scene.new_id();
+        bookmark.name = fmt::format("bookmark {}", i);
+        randomise(bookmark.camera, random);
+    }
     return scene;
 }
 
@@ -240,14 +246,18 @@ Edit random_edit(const Scene& scene, std::mt19937& random) {
     const auto any_light = [&] {
         return scene.lights.empty() ? Id{77777} : scene.lights[pick(scene.lights.size())].id;
     };
+    const auto any_bookmark = [&] {
+        return scene.bookmarks.empty() ? Id{66666} : scene.bookmarks[pick(scene.bookmarks.size())].id;
+    };
     const auto any_object = [&] {
         const ObjectRef objects[] = {{ObjectType::node, any_node()},
                                      {ObjectType::material, any_material()},
                                      {ObjectType::light, any_light()},
                                      {ObjectType::sky},
                                      {ObjectType::camera},
+                                     {ObjectType::bookmark, any_bookmark()},
                                      {ObjectType::settings}};
-        return objects[pick(6)];
+        return objects[pick(7)];
     };
     const auto any_definition = [&] {
         return scene.definitions.empty() ? any_node() : scene.definitions[pick(scene.definitions.size())].id;
@@ -318,6 +328,15 @@ Edit random_edit(const Scene& scene, std::mt19937& random) {
             Scene part = excerpt(other, {ids[pick(ids.size())], ids[pick(ids.size())]});
             return InsertExcerpt{any_node(), pick(6) - 1, std::make_shared<const Scene>(std::move(part))};
         }
+        case 21: {
+            Camera camera;
+            randomise(camera, random);
+            return AddBookmark{{0, name, camera}};
+        }
+        case 22:
+            return RemoveBookmark{any_bookmark()};
+        case 23:
+            return MoveBookmark{any_bookmark(), pick(4) - 1};
         default: {
             std::vector<Id> custom{any_node()};
             for (const Id id : all_ids(scene.root))

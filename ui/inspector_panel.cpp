@@ -1,6 +1,8 @@
 #include "ui/inspector_panel.h"
 
+#include "ui/bookmark_list.h"
 #include "ui/kind_menu.h"
+#include "ui/material_edits.h"
 #include "ui/tree_edits.h"
 #include "ui/tree_panel.h"
 #include "ui/value_row.h"
@@ -32,6 +34,14 @@ void name_row(Ui& ui, ObjectRef object, const std::string& name, const char* emp
     if (ImGui::IsItemDeactivatedAfterEdit() && text != name) edits.push_back(SetName{object, text});
     ImGui::PopID();
     ImGui::PopID();
+}
+
+void wrapped(ImU32 color, const std::string& text) {
+    ImGui::PushStyleColor(ImGuiCol_Text, color);
+    ImGui::PushTextWrapPos(0.0f);
+    ImGui::TextUnformatted(text.c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::PopStyleColor();
 }
 
 void kind_row(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
@@ -98,6 +108,8 @@ void material_row(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
     }
     if (ImGui::Selectable(inherit, node.material == 0)) edits.push_back(SetMaterial{node.id, 0});
     ui.report.item("material", "inherit");
+    if (ImGui::Selectable("New material")) edits = new_material(scene, node.id);
+    ui.report.item("material", "new");
     ImGui::Separator();
     for (const Material& m : scene.materials) {
         ImGui::PushID(static_cast<int>(m.id));
@@ -110,18 +122,6 @@ void material_row(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
         ImGui::PopID();
     }
     ImGui::EndCombo();
-}
-
-int uses(const Node& node, Id material) {
-    int count = node.material == material ? 1 : 0;
-    for (const Node& child : node.children) count += uses(child, material);
-    return count;
-}
-
-int uses(const Scene& scene, Id material) {
-    int count = uses(scene.root, material);
-    for (const Node& definition : scene.definitions) count += uses(definition, material);
-    return count;
 }
 
 void delete_button(Ui& ui, const Scene& scene, const char* label, bool enabled, Edits& edits) {
@@ -159,14 +159,6 @@ std::string range_text(const Box& box) {
                     ? fmt::format("\n{} from {:.4g} to {:.4g} m", "xyz"[axis], box.low[axis], box.high[axis])
                     : fmt::format("\n{} without end", "xyz"[axis]);
     return text;
-}
-
-void wrapped(ImU32 color, const std::string& text) {
-    ImGui::PushStyleColor(ImGuiCol_Text, color);
-    ImGui::PushTextWrapPos(0.0f);
-    ImGui::TextUnformatted(text.c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::PopStyleColor();
 }
 
 void slope_row(Ui& ui, const NodeAudit& audit) {
@@ -291,15 +283,28 @@ void inspect_node(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
 
 void inspect_material(Ui& ui, const Scene& scene, const Material& material, Edits& edits) {
     name_row(ui, ui.inspected, material.name, "a name is needed", edits);
-    const int count = uses(scene, material.id);
+    const std::vector<Id> users = material_users(scene, material.id);
+    const int count = static_cast<int>(users.size());
     row_label(ui, "Used by", false);
-    if (&material == scene.materials.data())
-        ImGui::TextDisabled("%d nodes, and all without one", count);
-    else
-        ImGui::TextDisabled("%d %s", count, count == 1 ? "node" : "nodes");
+    ImGui::BeginDisabled(users.empty());
+    if (ImGui::Button(fmt::format("{} {}", count, count == 1 ? "node" : "nodes").c_str(), {-FLT_MIN, 0.0f}))
+        ui.select(select(users));
+    ImGui::EndDisabled();
+    ui.report.item("inspector", "users");
+    tooltip(ui, "Selects them");
+    if (&material == scene.materials.data()) {
+        row_label(ui, "", false);
+        ImGui::PushFont(ui.theme.small_font);
+        ImGui::TextDisabled("and by all nodes without one");
+        ImGui::PopFont();
+    }
     section(ui, "Surface");
     value_rows(ui, "inspector", scene, ui.inspected, edits);
     delete_button(ui, scene, "Delete material", scene.materials.size() > 1, edits);
+    ImGui::PushFont(ui.theme.small_font);
+    if (const std::string text = without_material(scene, material.id, count); !text.empty())
+        wrapped(ui.theme.dim, text);
+    ImGui::PopFont();
 }
 
 void inspect_light(Ui& ui, const Scene& scene, const Light& light, Edits& edits) {
@@ -342,6 +347,7 @@ Edits inspector_panel(Ui& ui, const Scene& scene) {
     } else if (selection.type == ObjectType::sky || selection.type == ObjectType::camera) {
         section(ui, selection.type == ObjectType::sky ? "Sky radiance" : "Camera");
         value_rows(ui, "inspector", scene, selection, edits);
+        if (selection.type == ObjectType::camera) bookmark_list(ui, scene, edits);
     } else {
         ImGui::PushTextWrapPos(0.0f);
         ImGui::TextDisabled(

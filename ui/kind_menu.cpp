@@ -1,5 +1,7 @@
 #include "ui/kind_menu.h"
 
+#include "sdf/kind_words.h"
+
 #include <imgui_stdlib.h>
 
 #include <algorithm>
@@ -124,7 +126,7 @@ std::vector<const KindInfo*> matching_kinds(std::string_view text, const KindFil
     };
     std::string joined;
     for (const std::string& word : words) joined += (joined.empty() ? "" : " ") + word;
-    constexpr int rank_count = 5;
+    constexpr int rank_count = 6;
     std::vector<const KindInfo*> ranks[rank_count];
     for (const KindInfo& kind : node_kinds()) {
         if (kind.role == Role::instance || !allowed(kind)) continue;
@@ -140,8 +142,10 @@ std::vector<const KindInfo*> matching_kinds(std::string_view text, const KindFil
             ranks[2].push_back(&kind);
         else if (all_in(names))
             ranks[3].push_back(&kind);
-        else if (all_in(names + " " + lower_case(kind.tip)))
+        else if (all_in(names + " " + std::string(other_words(kind.kind))))
             ranks[4].push_back(&kind);
+        else if (all_in(names + " " + lower_case(kind.tip)))
+            ranks[5].push_back(&kind);
     }
     for (int i = 1; i < rank_count; ++i) ranks[0].insert(ranks[0].end(), ranks[i].begin(), ranks[i].end());
     return ranks[0];

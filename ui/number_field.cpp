@@ -256,21 +256,24 @@ bool number_field(Ui& ui, const char* label, const Parameter& parameter, float& 
                                           : hovered ? ImGuiCol_FrameBgHovered
                                                     : ImGuiCol_FrameBg),
                        true, style.FrameRounding);
+    const std::string text =
+        shown_number(parameter, value, active && !range, unit, box.GetWidth() - ui.theme.px(range ? 4.0f : 9.0f));
     if (range) {
-        // A level, not a knob: the number stays readable on it.
+        // A level, not a knob: the number stays readable on it. Its edge has a gap where the number is.
         const float x = box.Min.x + position_of(*range, value) * box.GetWidth(), edge = ui.theme.px(2.0f);
         window->DrawList->PushClipRect(box.Min, box.Max, true);
         if (x > box.Min.x + style.FrameRounding)
             window->DrawList->AddRectFilled(box.Min, {x, box.Max.y}, ImGui::GetColorU32(ImGuiCol_SliderGrab, 0.3f),
                                             style.FrameRounding, ImDrawFlags_RoundCornersLeft);
         const float from = std::clamp(x - edge * 0.5f, box.Min.x, box.Max.x - edge);
-        window->DrawList->AddRectFilled(
-            {from, box.Min.y}, {from + edge, box.Max.y},
-            ImGui::GetColorU32(active || hovered ? ImGuiCol_SliderGrabActive : ImGuiCol_SliderGrab));
+        const ImU32 color = ImGui::GetColorU32(active || hovered ? ImGuiCol_SliderGrabActive : ImGuiCol_SliderGrab);
+        const float number = 0.5f * ImGui::CalcTextSize(text.c_str()).x + edge;
+        const bool behind = std::abs(x - 0.5f * (box.Min.x + box.Max.x)) < number;
+        const float length = behind ? std::floor(0.2f * box.GetHeight()) : box.GetHeight();
+        window->DrawList->AddRectFilled({from, box.Min.y}, {from + edge, box.Min.y + length}, color);
+        if (behind) window->DrawList->AddRectFilled({from, box.Max.y - length}, {from + edge, box.Max.y}, color);
         window->DrawList->PopClipRect();
     }
-    const std::string text =
-        shown_number(parameter, value, active && !range, unit, box.GetWidth() - ui.theme.px(range ? 4.0f : 9.0f));
     ImGui::RenderTextClipped({box.Min.x + ui.theme.px(range ? 0.0f : 3.0f), box.Min.y}, box.Max, text.c_str(), nullptr,
                              nullptr, {0.5f, 0.5f}, &box);
     if (full && !parameter.is_word(value) && typed_number(text, unit) != value) *full = fmt::format("{}", value);

@@ -12,6 +12,7 @@ namespace {
 std::string shapes_text(const Scene& scene) {
     Scene shapes = scene;
     shapes.camera = {};
+    shapes.bookmarks.clear();
     shapes.settings = {};
     shapes.sky = {};
     shapes.lights.clear();

@@ -108,7 +108,7 @@ Selection selection_after(const Scene& before, const Scene& after, std::span<con
             const auto first = std::find(siblings.begin(), siblings.end(), results[i]);
             const auto count = std::min(std::ssize(pasted->excerpt->root.children), siblings.end() - first);
             added.insert(added.end(), first, first + count);
-        } else if (results[i] != 0) {
+        } else if (results[i] != 0 && !std::holds_alternative<AddBookmark>(edit)) {
             added.push_back(results[i]);
         }
     }

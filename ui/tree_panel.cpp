@@ -1,6 +1,7 @@
 #include "ui/tree_panel.h"
 
 #include "ui/kind_menu.h"
+#include "ui/material_edits.h"
 #include "ui/tree_edits.h"
 #include "ui/tree_menu.h"
 
@@ -246,6 +247,8 @@ private:
                 if (payload->IsDelivery()) drop(source, nodes, target->id, index);
             }
         }
+        if (const ImGuiPayload* material = ImGui::AcceptDragDropPayload(material_payload))
+            append(edits, drop_material(scene_, ui_.selected(), node.id, *static_cast<const Id*>(material->Data)));
         ImGui::EndDragDropTarget();
     }
 

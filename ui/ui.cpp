@@ -15,6 +15,8 @@ bool exists(const Scene& scene, ObjectRef object) {
             return find_material(scene, object.id) != nullptr;
         case ObjectType::light:
             return find_light(scene, object.id) != nullptr;
+        case ObjectType::bookmark:
+            return find_bookmark(scene, object.id) != nullptr;
         default:
             return true;
     }
@@ -67,6 +69,21 @@ void section(const Ui& ui, const char* title) {
     if (end > x) ImGui::GetWindowDrawList()->AddLine({x, y}, {end, y}, ImGui::GetColorU32(ImGuiCol_Separator));
 }
 
+bool heading(Ui& ui, const char* title, const char* panel, const char* name, std::string_view tip,
+             std::string_view hint) {
+    section(ui, title);
+    const float side = ui.theme.px(20.0f);
+    ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - side);
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.0f, 0.0f});
+    ImGui::PushID(name);
+    const bool pressed = ImGui::Button("+", {side, ImGui::GetTextLineHeight()});
+    ImGui::PopID();
+    ImGui::PopStyleVar();
+    ui.report.item(panel, name);
+    tooltip(ui, tip, hint);
+    return pressed;
+}
+
 void tooltip(const Ui& ui, std::string_view text, std::string_view hint) {
     if (!ImGui::IsItemHovered() || ImGui::IsAnyItemActive()) return;
     // Rest: the mouse has been over the same item for a while.
@@ -92,6 +109,17 @@ void tooltip(const Ui& ui, std::string_view text, std::string_view hint) {
     ImGui::PopTextWrapPos();
     ImGui::EndTooltip();
     ImGui::PopStyleVar();
+}
+
+PopupMenu::PopupMenu(const Ui& ui, const char* id) {
+    ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.theme.px(10.0f), ui.theme.px(8.0f)});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.theme.px(7.0f), ui.theme.px(6.0f)});
+    open_ = ImGui::BeginPopup(id);
+}
+
+PopupMenu::~PopupMenu() {
+    if (open_) ImGui::EndPopup();
+    ImGui::PopStyleVar(2);
 }
 
 void draw_icon(const Ui& ui, Role role, ImVec2 centre) {

@@ -40,6 +40,13 @@ struct TreeSearch {
     bool focus = false;  ///< the tree puts the keyboard into the field, once
 };
 
+/// The bookmark whose row takes a new name.
+struct BookmarkEntry {
+    Id renamed = 0;
+    bool focus = false;  ///< the row puts the keyboard into the field, once
+    std::string text;
+};
+
 struct Ui {
     Ui(const Theme& look, Report to) : theme(look), report(std::move(to)) {}
 
@@ -65,6 +72,7 @@ struct Ui {
     bool show_history = false;
     Id reveal = 0;  ///< node, material or light that its list scrolls to, once
     TreeSearch tree_search;
+    BookmarkEntry bookmark_entry;
     bool open_add = false;    ///< the tree opens its list of kinds to add, once
     bool focus_name = false;  ///< the inspector puts the keyboard into the name field, once
     std::string name_text;    ///< what the name field holds while someone types
@@ -97,8 +105,26 @@ void panel_title(const Ui& ui, const char* title);
 /// Small heading between groups of rows.
 void section(const Ui& ui, const char* title);
 
+/// The same with a "+" at its right end, known to the report as `name` of `panel`; true when that was pressed.
+bool heading(Ui& ui, const char* title, const char* panel, const char* name, std::string_view tip,
+             std::string_view hint = {});
+
 /// Tooltip of the last item after a short rest of the mouse; the second text is dimmed.
 void tooltip(const Ui& ui, std::string_view text, std::string_view hint = {});
+
+/// A menu that ImGui::OpenPopup has opened, with the spacing of menus whatever the rows around it have. Draws its
+/// entries and is left at the end of its life.
+class PopupMenu {
+public:
+    PopupMenu(const Ui& ui, const char* id);
+    ~PopupMenu();
+    PopupMenu(const PopupMenu&) = delete;
+    PopupMenu& operator=(const PopupMenu&) = delete;
+    bool is_open() const { return open_; }
+
+private:
+    bool open_;
+};
 
 /// The sign of a node's role: disc, two discs, four dots or a ring.
 void draw_icon(const Ui& ui, Role role, ImVec2 centre);
