@@ -16,7 +16,7 @@
 #include <cstdlib>
 #include <malloc.h>
 #ifdef __SANITIZE_ADDRESS__
-#include <sanitizer/allocator_interface.h>
+extern "C" std::size_t __sanitizer_get_current_allocated_bytes();  // GCC comes without the header
 #endif
 
 namespace farfield {

@@ -1,11 +1,14 @@
 // What the panels work out, without a window.
 #include "sdf/codegen.h"
+#include "sdf/pick.h"
 #include "sdf/scene_file.h"
 #include "tests/test_support.h"
 #include "ui/glsl_tokens.h"
 #include "ui/kind_menu.h"
 #include "ui/number_field.h"
+#include "ui/objects_panel.h"
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include <sstream>
@@ -67,6 +70,32 @@ TEST(TypedNumber, IsReadAsPeopleTypeIt) {
         EXPECT_EQ(typed_number(text, "m"), std::nullopt) << text;
 }
 
+TEST(NewLight, IsSeenAndLightsWhatIsLookedAt) {
+    std::mt19937 random(5);
+    for (int i = 0; i < 200; ++i) {
+        Scene scene;
+        Camera& camera = scene.camera;
+        const float size = std::pow(10.0f, static_cast<float>(i % 6) - 3.0f);
+        for (const Field<Camera>& field : fields<Camera>())
+            if (field.parameter.components() == 3) field.set(camera, size * random_value(field.parameter, random));
+        if (i % 20 == 0) camera.target = camera.position;
+        const Id id = apply(scene, AddLight{light_in_view(camera)});
+        const Light& light = *find_light(scene, id);
+        EXPECT_GT(light.intensity.x, 0.0f);
+        if (i % 20 == 0 ||
+            std::abs(camera.target.y - camera.position.y) > 0.9f * glm::distance(camera.target, camera.position))
+            continue;
+        const CameraBasis basis(camera);
+        const glm::vec3 to = light.position - camera.position;
+        const float depth = glm::dot(to, basis.forward);
+        EXPECT_GT(depth, 0.0f);
+        EXPECT_LT(std::abs(glm::dot(to, basis.up)), depth * basis.half_height);
+        EXPECT_LT(std::abs(glm::dot(to, basis.right)), depth * basis.half_height);
+        const float distance = glm::distance(light.position, camera.target);
+        EXPECT_NEAR(light.intensity.x / (distance * distance), 3.0f, 2.0f);
+    }
+}
+
 std::vector<std::string> found_kinds(std::string_view text) {
     std::vector<std::string> keys;
     for (const KindInfo* kind : matching_kinds(text, [](const KindInfo&) { return true; })) keys.push_back(kind->key);
@@ -94,6 +123,7 @@ TEST(KindMenu, FindsKindsByWhatIsTyped) {
         {"difference", "subtract"},
         {"intersection", "intersect"},
         {"cube", "box"},
+        {"ball", "sphere"},
         {"array", "repeat"},
         {"radial", "polar_repeat"},
         {"lathe", "revolve"},

@@ -5,6 +5,10 @@
 #include "ui/value_row.h"
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <cmath>
 
 namespace farfield {
 namespace {
@@ -137,7 +141,10 @@ void material_row(Ui& ui, const Scene& scene, const Material& material, int uses
     }
     Edits given = row.hovered() ? give_material(scene, ui.selected(), material.id) : Edits{};
     const bool first = &material == scene.materials.data();
-    const std::string note = fmt::format("{}{}", first ? "default   " : emits ? "emits   " : "", uses);
+    const std::string note = fmt::format("{}{}", emits ? "emits   " : "",
+                                         !first      ? fmt::format("{}", uses)
+                                         : uses == 0 ? "all others"
+                                                     : fmt::format("{} + others", uses));
     const float from = given.empty() ? row.note(note.c_str(), ui.theme.dim) : row.note("assign", ui.theme.accent);
     const bool assigns = !given.empty() && ImGui::GetIO().MousePos.x >= from;
     if (row.pressed() && assigns)
@@ -156,6 +163,20 @@ void material_row(Ui& ui, const Scene& scene, const Material& material, int uses
 
 }  // namespace
 
+Light light_in_view(const Camera& camera) {
+    const auto rounded = [](float v, float unit) { return std::round(v / unit) * unit; };
+    const glm::vec3 back = camera.position - camera.target;
+    const float distance = std::clamp(glm::length(back), 1e-4f, 1e4f);
+    const float unit = std::pow(10.0f, std::floor(std::log10(distance)) - 1.0f);
+    Light light;
+    const glm::vec3 position = camera.target + 0.25f * back + glm::vec3(0.0f, 0.2f * distance, 0.0f);
+    for (int axis = 0; axis < 3; ++axis) light.position[axis] = rounded(position[axis], unit);
+    // As bright on what is looked at however far that is.
+    light.intensity = glm::vec3(rounded(0.3f * distance * distance, unit * unit));
+    for (const Field<Light>& field : fields<Light>()) field.set(light, clamped(field.parameter, field.get(light)));
+    return light;
+}
+
 Edits objects_panel(Ui& ui, const Scene& scene) {
     Edits edits;
     panel_title(ui, "Light and materials");
@@ -165,7 +186,8 @@ Edits objects_panel(Ui& ui, const Scene& scene) {
     const ImVec4 sky = display_color(scene.sky.zenith);
     world_row(ui, {ObjectType::sky, 0}, "Sky", &sky);
     world_row(ui, {ObjectType::camera, 0}, "Camera", nullptr);
-    if (heading(ui, "Lights", "objects", "add_light", "Adds a point light")) edits.push_back(AddLight{});
+    if (heading(ui, "Lights", "objects", "add_light", "Adds a point light in the middle of the view"))
+        edits.push_back(AddLight{light_in_view(scene.camera)});
     for (const Light& light : scene.lights) light_row(ui, scene, light, edits);
     if (scene.lights.empty()) {
         ImGui::PushTextWrapPos(0.0f);

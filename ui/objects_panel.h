@@ -5,6 +5,9 @@
 
 namespace farfield {
 
+/// A point light that is seen, over what the camera looks at and nearer to it.
+Light light_in_view(const Camera& camera);
+
 Edits objects_panel(Ui& ui, const Scene& scene);
 
 }  // namespace farfield
