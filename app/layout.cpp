@@ -17,10 +17,10 @@ namespace {
 
 /// A child window without padding at a fixed place; `draw` fills it.
 template <class Draw>
-void panel(const char* name, ImVec2 low, ImVec2 size, Draw draw) {
+void panel(const char* name, ImVec2 low, ImVec2 size, Draw draw, ImGuiWindowFlags flags = 0) {
     ImGui::SetCursorScreenPos(low);
     size = {std::max(size.x, 1.0f), std::max(size.y, 1.0f)};  // to ImGui, nothing means all that is left
-    ImGui::BeginChild(name, size, false, ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
+    ImGui::BeginChild(name, size, false, flags | ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoScrollWithMouse);
     draw();
     ImGui::EndChild();
 }
@@ -173,8 +173,10 @@ void Layout::draw_middle(Ui& ui, ImVec2 low, ImVec2 size, const Document& docume
     // A message about the document can be put away; one about the picture stays as long as it is true.
     const float covered = message.empty() ? message_bar(ui, low, room.x, picture.error, false, result.dismissed)
                                           : message_bar(ui, low, room.x, message, true, result.dismissed);
-    panel("viewport", low, room,
-          [&] { result.viewport = viewport_.draw(ui, document.scene(), input, picture, covered); });
+    // On llvmpipe each layer that is filled costs as much as everything else in the frame.
+    panel(
+        "viewport", low, room, [&] { result.viewport = viewport_.draw(ui, document.scene(), input, picture, covered); },
+        ImGuiWindowFlags_NoBackground);
 }
 
 LayoutResult Layout::draw(Ui& ui, ImVec2 size, const Document& document, const ViewportInput& input,
@@ -188,7 +190,8 @@ LayoutResult Layout::draw(Ui& ui, ImVec2 size, const Document& document, const V
     ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0.0f);
     ImGui::Begin("main", nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_MenuBar | ImGuiWindowFlags_NoScrollWithMouse);
+                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_MenuBar | ImGuiWindowFlags_NoScrollWithMouse |
+                     ImGuiWindowFlags_NoBackground);  // the cleared window has it
     ImGui::PopStyleVar(3);
     if (ImGui::BeginMenuBar()) {
         result.command = command_menus(ui, enabled, [&](CommandId id) {

@@ -59,7 +59,8 @@ Edits CodePanel::draw(Ui& ui, const Scene& scene, std::uint64_t revision) {
     mark(ui, scene);
     ImGui::PushFont(ui.theme.mono);
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.0f, 0.0f});
-    ImGui::BeginChild("text", {0.0f, 0.0f}, false, ImGuiWindowFlags_HorizontalScrollbar);
+    ImGui::BeginChild("text", {0.0f, 0.0f}, false,
+                      ImGuiWindowFlags_HorizontalScrollbar | ImGuiWindowFlags_NoBackground);
     ImGui::PopStyleVar();
     text(ui, scene);
     ImGui::EndChild();

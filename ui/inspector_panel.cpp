@@ -333,7 +333,7 @@ Edits inspector_panel(Ui& ui, const Scene& scene) {
     Edits edits;
     panel_title(ui, "Inspector");
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.theme.px(10.0f), ui.theme.px(8.0f)});
-    ImGui::BeginChild("rows", {0.0f, 0.0f}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+    begin_rows();
     const ObjectRef selection = ui.inspected;
     ImGui::PushID(static_cast<int>(selection.type));
     ImGui::PushID(static_cast<int>(selection.id));

@@ -181,7 +181,7 @@ Edits objects_panel(Ui& ui, const Scene& scene) {
     Edits edits;
     panel_title(ui, "Light and materials");
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.theme.px(8.0f), ui.theme.px(2.0f)});
-    ImGui::BeginChild("rows", {0.0f, 0.0f}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+    begin_rows();
     section(ui, "World");
     const ImVec4 sky = display_color(scene.sky.zenith);
     world_row(ui, {ObjectType::sky, 0}, "Sky", &sky);

@@ -53,7 +53,7 @@ Edits settings_panel(Ui& ui, const Scene& scene, const Statistics& statistics) {
     Edits edits;
     panel_title(ui, "Render");
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.theme.px(10.0f), ui.theme.px(8.0f)});
-    ImGui::BeginChild("rows", {0.0f, 0.0f}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+    begin_rows();
     view_row(ui);
     const ObjectRef settings{ObjectType::settings, 0};
     for (const Parameter& parameter : parameters(scene, settings)) {

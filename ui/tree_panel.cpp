@@ -350,7 +350,7 @@ Edits tree_panel(Ui& ui, const Scene& scene) {
     ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {ui.theme.px(4.0f), ui.theme.px(4.0f)});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ui.theme.px(4.0f), ui.theme.px(1.0f)});
     ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {ui.theme.px(3.0f), ui.theme.px(2.0f)});
-    ImGui::BeginChild("rows", {0.0f, 0.0f}, false, ImGuiWindowFlags_AlwaysUseWindowPadding);
+    begin_rows();
     const auto note = [&](const char* text) {
         ImGui::Dummy({0.0f, ui.theme.px(8.0f)});
         ImGui::Indent(ui.theme.px(8.0f));

@@ -58,6 +58,11 @@ void panel_title(const Ui& ui, const char* title) {
     ImGui::Dummy({high.x - low.x, height});
 }
 
+void begin_rows() {
+    ImGui::BeginChild("rows", {0.0f, 0.0f}, false,
+                      ImGuiWindowFlags_AlwaysUseWindowPadding | ImGuiWindowFlags_NoBackground);  // the panel has it
+}
+
 void section(const Ui& ui, const char* title) {
     ImGui::Dummy({0.0f, ui.theme.px(3.0f)});
     ImGui::PushFont(ui.theme.small_font);

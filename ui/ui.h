@@ -101,6 +101,8 @@ std::string label_of(std::string_view key);
 
 /// The title strip of a panel, as wide as that.
 void panel_title(const Ui& ui, const char* title);
+/// The part of a panel that scrolls, down to its end; ImGui::EndChild() ends it.
+void begin_rows();
 
 /// Small heading between groups of rows.
 void section(const Ui& ui, const char* title);
