@@ -58,7 +58,10 @@ public:
             const bool attentive = seconds() - last_input < attention || moving || ImGui::GetIO().WantTextInput;
             const bool first = editor_.picture().texture == 0;
             const bool pictured = editor_.show(render_.acquire());
-            if (first && editor_.picture().texture != 0) redraws = settling_frames;
+            if (first && editor_.picture().texture != 0) {
+                redraws = settling_frames;
+                times_.clear();  // of the start
+            }
             const Document& document = editor_.document();
             const bool measured = measuring_.refresh(document.scene(), document.revision());
             const bool refreshed = editor_.refresh(seconds());
@@ -69,12 +72,11 @@ public:
                 render_.give_way(true);
                 frame();
                 render_.give_way(false);
+                times_.push_back(1e3 * (seconds() - start));
+                if (times_.size() > timed_frames) times_.erase(times_.begin());
             }
             if (redraws > 0) --redraws;
             editor_.write_report(seconds());
-            if (!drawn) continue;
-            times_.push_back(1e3 * (seconds() - start));
-            if (times_.size() > timed_frames) times_.erase(times_.begin());
         }
         editor_.end();
         remember_state();

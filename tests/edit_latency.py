@@ -63,7 +63,7 @@ def main():
         file.write_text(json.dumps(scene_of(nodes)))
         with Editor(display, program, file, Path(folder) / "report.json") as editor:
             editor.wait("a first picture", lambda r: r["pictures"] >= 2 and r["specialised"])
-            interface = []
+            interface = []  # from the second edit on, after a good number of frames
 
             def select(i):
                 in_sight = [key for key in editor.report()["controls"] if key.startswith("tree/part ")]
@@ -86,6 +86,7 @@ def main():
                 structure.append(next_picture(before))
                 editor.key("ctrl+z")
                 editor.settled()
+            del interface[:2]
             for i in range(EDITS):
                 select(i)
                 x, y = editor.point_at("inspector/translate/x")
