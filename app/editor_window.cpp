@@ -1,5 +1,6 @@
 #include "app/editor_window.h"
 
+#include "app/crash_trace.h"
 #include "app/editor.h"
 #include "app/measuring.h"
 #include "app/window.h"
@@ -147,6 +148,9 @@ private:
 }  // namespace
 
 int run_editor(const EditorOptions& options) {
+#ifndef __SANITIZE_ADDRESS__  // which tells more
+    trace_crashes();
+#endif
     std::optional<EditorWindow> window;
     try {
         window.emplace(options);
