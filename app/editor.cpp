@@ -76,7 +76,7 @@ Editor::Editor(EditorState& state, const Theme& theme, Report report)
 bool Editor::show(RenderedPicture picture) {
     const auto seen = [](const RenderedPicture& p) {
         const Statistics& s = p.statistics;
-        return std::tuple(p.serial, p.error, s.structural_compiles, s.specialisations, s.frames);
+        return std::tuple(p.serial, p.error, p.compiled, s.structural_compiles, s.specialisations, s.frames);
     };
     const bool news = seen(picture) != seen(picture_);
     if (picture.serial != picture_.serial) ++pictures_;

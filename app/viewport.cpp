@@ -16,6 +16,8 @@
 namespace farfield {
 namespace {
 
+constexpr int told_compiles = 4;  // fewer are over before they are read
+
 void label(const Ui& ui, ImVec2 at, const char* text, ImU32 color) {
     const ImVec2 size = ImGui::CalcTextSize(text);
     const float pad = ui.theme.px(8.0f);
@@ -207,6 +209,9 @@ ViewportResult Viewport::draw(Ui& ui, const Scene& scene, const ViewportInput& i
     if (dragged_ && (hold_ == Hold::orbit || hold_ == Hold::pan)) draw_pivot(ui, view, pivot_);
     draw.PopClipRect();
 
+    const std::string compiling = picture.to_compile < told_compiles
+                                      ? ""
+                                      : fmt::format("Compiling: {} of {} parts", picture.compiled, picture.to_compile);
     const bool nothing_shows = is_empty(scene, scene.root);
     if (nothing_shows && !show_everything(scene).empty()) {
         centred_text(ui, low, high, 0.0f, "Nothing shows. Alt+H shows all that is hidden", ui.theme.text);
@@ -215,6 +220,7 @@ ViewportResult Viewport::draw(Ui& ui, const Scene& scene, const ViewportInput& i
         centred_text(ui, low, high, 0.7f, "Press + Add in the Scene panel, or A, to put in a first one", ui.theme.dim);
     } else if (picture.texture == 0 && picture.error.empty()) {
         centred_text(ui, low, high, 0.0f, "Preparing the first picture...", ui.theme.text);
+        if (!compiling.empty()) centred_text(ui, low, high, 1.2f, compiling.c_str(), ui.theme.dim);
     }
     const ImVec2 below{low.x + 2.0f * margin, low.y + covered + bar + 2.5f * margin};
     if (hold_ == Hold::fly)
@@ -224,6 +230,8 @@ ViewportResult Viewport::draw(Ui& ui, const Scene& scene, const ViewportInput& i
               ui.theme.accent);
     else if (!dropping.empty())
         label(ui, below, dropping.c_str(), ui.theme.accent);
+    else if (!compiling.empty() && picture.texture != 0)
+        label(ui, below, compiling.c_str(), ui.theme.text);
     else if (ui.view != View::result && !ui.tools.split.on)
         label(ui, below, views()[static_cast<std::size_t>(ui.view)].label, ui.theme.accent);
     // Beside the tools, or below them where there is no room.

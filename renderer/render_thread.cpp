@@ -32,6 +32,10 @@ constexpr double interactive_milliseconds = 50.0, first_milliseconds = 40.0;
 constexpr double step_milliseconds = 10.0;
 /// So long at most a step waits until the user interface has drawn a frame.
 constexpr auto longest_draw = std::chrono::milliseconds(50);
+/// A node whose parameters are in more programs than these, as the root's are, gets them when it is moved.
+constexpr int most_prepared = 8;
+/// Programs of a scene are made for so long although there is a newer one.
+constexpr auto longest_compile = std::chrono::seconds(2);
 /// A picture of an unfinished frame is shown after so long, and no sooner than three times what showing takes.
 constexpr auto longest_wait = std::chrono::milliseconds(150);
 /// Scenes with more nodes get no program with every number live: its compilation takes seconds on llvmpipe (27 nodes
@@ -62,6 +66,7 @@ struct RenderThread::State {
     int ready = -1;
     int held = -1;
     std::string error;  ///< of the latest request
+    int compiled = 0, to_compile = 0;
     Statistics statistics;
     std::vector<PictureWish> wishes;
     std::vector<WrittenPicture> written;
@@ -80,6 +85,7 @@ struct RenderThread::State {
     double milliseconds_per_pixel_sample = 0.0;  ///< measured on the last frame; 0: not yet
     bool unshown = false;                        ///< another view, other settings or a frame worth showing
     bool dropped = false;                        ///< the last picture was outdated before it was filtered
+    bool abandoned = false;                      ///< so was the last scene before its programs were there
     int shown_samples = 0;
     bool preview = false;   ///< the first picture after an edit, quick and small
     bool prepared = false;  ///< every program that the next edit may need is there
@@ -91,6 +97,7 @@ struct RenderThread::State {
     bool wait_for_work();
     void take_request();
     void update(Tier tier, Id tuned);
+    bool make_programs(Tier tier, Id tuned);
     bool compile_in_background();
     void compile_one(Tier tier, Id tuned);
     void work();
@@ -145,6 +152,8 @@ RenderedPicture RenderThread::acquire() {
     picture.statistics = state_->statistics;
     picture.statistics.edit_milliseconds = state_->edit_milliseconds;
     picture.error = state_->error;
+    picture.compiled = state_->compiled;
+    picture.to_compile = state_->to_compile;
     return picture;
 }
 
@@ -250,7 +259,6 @@ glm::ivec2 RenderThread::State::quick_size() const {
 }
 
 void RenderThread::State::take_request() {
-    request_time = Clock::now();
     gave_up = prepared = false;
     if (!current.scene || current.size.x <= 0 || current.size.y <= 0) return;
     const Scene& scene = *current.scene;
@@ -263,8 +271,33 @@ void RenderThread::State::take_request() {
         update(Tier::specialised, current.tuned);
     else if (!renderer->needs_compile(scene, Tier::live))
         update(Tier::live, 0);
-    else
-        update(Tier::specialised, current.interacting ? current.tuned : 0);
+    else if (const Id tuned = current.interacting ? current.tuned : 0; make_programs(Tier::specialised, tuned))
+        update(Tier::specialised, tuned);
+    request_time = Clock::now();  // to prepare for the next edit before this one shows would be too early
+}
+
+/// All but the last program of a large scene, one after the other; false when a newer scene came meanwhile. Not twice
+/// in a row, unless it takes long: something must be seen.
+bool RenderThread::State::make_programs(Tier tier, Id tuned) {
+    const Clock::time_point start = Clock::now();
+    bool outdated = false;
+    try {
+        const int all = renderer->missing_programs(*current.scene, tier, tuned);
+        for (int left = all; left > 1 && !outdated;) {
+            left = renderer->compile_one(*current.scene, tier, tuned);
+            const std::lock_guard lock(mutex);
+            to_compile = all, compiled = all - left;
+            const bool newer = next && next->scene != current.scene;
+            outdated = stop || (newer && (!abandoned || Clock::now() - start > longest_compile));
+        }
+    } catch (const std::exception&) {
+        // update() will meet it as well, and tell.
+    }
+    const std::lock_guard lock(mutex);
+    compiled = to_compile = 0;
+    abandoned = outdated;
+    if (outdated) unshown = false;
+    return !outdated;
 }
 
 void RenderThread::State::update(Tier tier, Id tuned) {
@@ -318,7 +351,10 @@ bool RenderThread::State::compile_in_background() {
     }
     const std::chrono::duration<double, std::milli> longer(patience * renderer->statistics().compile_milliseconds);
     if (Clock::now() - request_time < longer) return false;
-    const bool tuned = current.tuned && find_node(scene, current.tuned) && missing(Tier::specialised, current.tuned);
+    const int for_tuned = current.tuned && find_node(scene, current.tuned)
+                              ? renderer->missing_programs(scene, Tier::specialised, current.tuned)
+                              : 0;
+    const bool tuned = for_tuned > 0 && for_tuned <= most_prepared;
     const bool live = !tuned && expanded_node_count(scene) <= largest_live_scene && missing(Tier::live, 0);
     prepared = !tuned && !live;
     if (prepared) return false;

@@ -45,7 +45,8 @@ struct RenderedPicture {
     glm::ivec2 size{0};
     std::uint64_t serial = 0;  ///< counts pictures
     Statistics statistics;
-    std::string error;  ///< why the latest scene is not the one in the picture; empty when it is
+    int compiled = 0, to_compile = 0;  ///< programs that the latest scene still needed; equal when they are there
+    std::string error;                 ///< why the latest scene is not the one in the picture; empty when it is
 };
 
 class RenderThread {

@@ -97,9 +97,10 @@ bool Renderer::keeps_samples(const Scene& scene, const FrameOptions& options) co
     return transport_bytes(scene, options) == transport_;
 }
 
-void Renderer::compile_one(const Scene& scene, Tier tier, Id tuned) {
-    programs_.compile_one(scene, tier, tuned);
+int Renderer::compile_one(const Scene& scene, Tier tier, Id tuned) {
+    const int missing = programs_.compile_one(scene, tier, tuned);
     note_compiles();
+    return missing;
 }
 
 void Renderer::note_compiles() {

@@ -52,10 +52,16 @@ public:
     /// ShaderError and goes on with the last good scene. True when accumulated samples were discarded.
     bool update(const Scene& scene, const FrameOptions& options);
     /// Whether `update` with these would have to compile.
-    bool needs_compile(const Scene& scene, Tier tier, Id tuned = 0) const { return !programs_.has(scene, tier, tuned); }
+    int missing_programs(const Scene& scene, Tier tier, Id tuned = 0) const {
+        return programs_.missing(scene, tier, tuned);
+    }
+    bool needs_compile(const Scene& scene, Tier tier, Id tuned = 0) const {
+        return missing_programs(scene, tier, tuned) > 0;
+    }
 
-    /// Compiles one of the programs that `update` would have to compile, and changes nothing else. Throws ShaderError.
-    void compile_one(const Scene& scene, Tier tier, Id tuned = 0);
+    /// Compiles one of the programs that `update` would have to compile, and changes nothing else; how many are missing
+    /// still. Throws ShaderError.
+    int compile_one(const Scene& scene, Tier tier, Id tuned = 0);
 
     /// Whether `update` with these would keep the accumulated samples, but for a change of size.
     bool keeps_samples(const Scene& scene, const FrameOptions& options) const;

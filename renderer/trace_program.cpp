@@ -116,21 +116,23 @@ TracePrograms::Codes TracePrograms::codes(const Scene& scene, Tier tier, Id tune
     return codes;
 }
 
-bool TracePrograms::has(const Scene& scene, Tier tier, Id tuned) const {
-    if (expanded_node_count(scene) > largest_program) return false;
+int TracePrograms::missing(const Scene& scene, Tier tier, Id tuned) const {
+    if (expanded_node_count(scene) > largest_program) return 1;
     const Codes all = codes(scene, tier, tuned);
-    return std::all_of(all.begin(), all.end(),
-                       [&](const auto& code) { return find(code->generated.key) != cache_.end(); });
+    return static_cast<int>(std::count_if(all.begin(), all.end(),
+                                          [&](const auto& code) { return find(code->generated.key) == cache_.end(); }));
 }
 
-void TracePrograms::compile_one(const Scene& scene, Tier tier, Id tuned) {
+int TracePrograms::compile_one(const Scene& scene, Tier tier, Id tuned) {
     check_size(scene);
-    for (const auto& code : codes(scene, tier, tuned)) {
-        if (find(code->generated.key) != cache_.end()) continue;
-        compile_milliseconds_ = 0.0;
-        compile(*code);
-        return;
-    }
+    Codes missing = codes(scene, tier, tuned);
+    const auto is_there = [&](const auto& code) { return find(code->generated.key) != cache_.end(); };
+    std::erase_if(missing, is_there);
+    if (missing.empty()) return 0;
+    compile_milliseconds_ = 0.0;
+    compile(*missing.front());
+    std::erase_if(missing, is_there);  // others may have the same code
+    return static_cast<int>(missing.size());
 }
 
 void TracePrograms::select(const Scene& scene, Tier tier, Id tuned) {

@@ -21,10 +21,11 @@ public:
     /// Makes the programs of `scene` (see generate) current for `trace`; compiles those that the cache has not. When
     /// that fails it throws ShaderError whose message names the node, and the last good programs stay.
     void select(const Scene& scene, Tier tier, Id tuned = 0);
-    /// Whether select would find its programs in the cache.
-    bool has(const Scene& scene, Tier tier, Id tuned = 0) const;
-    /// Compiles one of those that select would have to compile. Throws like it; does nothing where none is missing.
-    void compile_one(const Scene& scene, Tier tier, Id tuned = 0);
+    /// How many programs select would have to compile, at least one for a scene that is refused.
+    int missing(const Scene& scene, Tier tier, Id tuned = 0) const;
+    /// Compiles one of those that select would have to compile, if any, and tells how many are missing still. Throws
+    /// like it.
+    int compile_one(const Scene& scene, Tier tier, Id tuned = 0);
 
     /// Ray buffer to hit buffer, `count` rays from the first. `surfaces`: normal and material too; without, any hit
     /// serves where rays meet several parts.

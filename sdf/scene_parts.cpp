@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <set>
+#include <unordered_map>
+#include <utility>
 
 namespace farfield {
 namespace {
@@ -31,7 +33,8 @@ public:
         visit(scene.root);
     }
 
-    std::vector<std::set<Id>> parts;  ///< the topmost nodes of each
+    std::unordered_map<Id, std::size_t> part_of;  ///< the topmost nodes of each part
+    std::size_t parts = 0;
 
 private:
     void visit(const Node& node) {
@@ -41,12 +44,12 @@ private:
             for (const Node& child : node.children) visit(child);
             return;
         }
-        if (parts.empty() || (size_ >= sizes_.least && may_begin(node.id, count, sizes_.usual)) ||
+        if (parts == 0 || (size_ >= sizes_.least && may_begin(node.id, count, sizes_.usual)) ||
             size_ + count > sizes_.most) {
-            parts.emplace_back();
+            ++parts;
             size_ = 0;
         }
-        parts.back().insert(node.id);
+        part_of[node.id] = parts - 1;
         size_ += count;
     }
 
@@ -55,17 +58,21 @@ private:
     std::uint64_t size_ = 0;  ///< of the last part
 };
 
-/// Whether anything of `node` is left when only the subtrees of `kept` are.
-bool keep_only(Node& copy, const Node& node, const std::set<Id>& kept) {
-    if (kept.contains(node.id)) {
-        copy = node;
-        return true;
-    }
-    copy.id = node.id, copy.kind = node.kind, copy.name = node.name, copy.values = node.values;
-    copy.transform = node.transform, copy.material = node.material;
+/// What each part has of `node` and below it, in the order of the parts.
+using Pieces = std::vector<std::pair<std::size_t, Node>>;
+Pieces pieces(const Node& node, const std::unordered_map<Id, std::size_t>& part_of) {
+    if (const auto found = part_of.find(node.id); found != part_of.end()) return {{found->second, node}};
+    Node without_children;
+    without_children.id = node.id, without_children.kind = node.kind, without_children.name = node.name;
+    without_children.values = node.values, without_children.transform = node.transform;
+    without_children.material = node.material;
+    Pieces all;
     for (const Node& child : node.children)
-        if (Node below; keep_only(below, child, kept)) copy.children.push_back(std::move(below));
-    return !copy.children.empty();
+        for (auto& [part, below] : pieces(child, part_of)) {
+            if (all.empty() || all.back().first != part) all.emplace_back(part, without_children);
+            all.back().second.children.push_back(std::move(below));
+        }
+    return all;
 }
 
 }  // namespace
@@ -73,15 +80,15 @@ bool keep_only(Node& copy, const Node& node, const std::set<Id>& kept) {
 std::vector<Scene> scene_parts(const Scene& scene) {
     if (expanded_node_count(scene) <= largest_whole_scene) return {scene};
     const Partition partition(scene);
-    if (partition.parts.size() <= 1) return {scene};
+    if (partition.parts <= 1) return {scene};
     const std::set<Id> filled = filled_definitions(scene);
     Scene rest = scene;
     rest.root = Node();
     std::vector<Scene> parts;
-    for (const std::set<Id>& kept : partition.parts) {
-        Scene part = rest;
-        keep_only(part.root, scene.root, kept);
-        if (!is_empty(part.root, filled)) parts.push_back(std::move(part));
+    for (auto& [number, root] : pieces(scene.root, partition.part_of)) {
+        if (is_empty(root, filled)) continue;
+        parts.push_back(rest);
+        parts.back().root = std::move(root);
     }
     if (parts.empty()) return {scene};
     return parts;

@@ -1,6 +1,7 @@
 // What the render thread does when a scene or the driver fails: the last good picture stays, it says why, and goes on
 // with the next change.
 #include "renderer/render_thread.h"
+#include "sdf/edit_steps.h"
 #include "sdf/scene_file.h"
 #include "tests/gl_test.h"
 #include "tests/test_support.h"
@@ -78,6 +79,26 @@ TEST_F(RenderThreadTest, ARefusedSceneLeavesTheLastPictureAndTheNextSceneShows) 
     next.camera.position.x += 0.5f;
     submit(next);
     wait([&](const RenderedPicture& p) { return good(p) && p.serial > refused.serial; });
+}
+
+TEST_F(RenderThreadTest, ALargeSceneTellsHowFarItIsAndMakesWayForANewerOne) {
+    Scene large = load_scene(std::filesystem::path(FARFIELD_SCENES) / "helix.json");
+    const Node helix = large.root;
+    for (int i = 0; i < 12; ++i) {
+        Node copy = helix;
+        visit_nodes(copy, [&](Node& node) { node.id = large.new_id(); });
+        copy.transform.translate.x = static_cast<float>(i + 1);
+        large.root.children.push_back(std::move(copy));
+    }
+    submit(large);
+    const RenderedPicture waiting = wait([](const RenderedPicture& p) { return p.compiled > 0; });
+    EXPECT_GT(waiting.to_compile, 8);
+    EXPECT_LT(waiting.compiled, waiting.to_compile);
+    EXPECT_EQ(waiting.texture, 0u);
+    submit(scene_);
+    const RenderedPicture first = wait(good);
+    EXPECT_EQ(first.to_compile, 0);
+    EXPECT_LT(first.statistics.structural_compiles, waiting.to_compile);
 }
 
 TEST_F(RenderThreadTest, AFailureOfTheDriverLeavesTheLastPictureAndTheNextChangeTriesAgain) {

@@ -89,6 +89,10 @@ def halves(editor):
     return [editor.display.picture(left, top, *part) for left in (x + margin, x + width - margin - part[0])]
 
 
+def shows(editor, half, picture, what):
+    editor.wait(what, lambda _: changed_fraction(halves(editor)[half], picture[half]) < 0.01)
+
+
 def the_split_view_compares(editor):
     """Left is what the settings say, right another look; both as they are where nothing is split."""
     revision = editor.report()["revision"]
@@ -106,16 +110,13 @@ def the_split_view_compares(editor):
     editor.click("split/view/Depth")
     editor.key("Escape")
     editor.settled()
-    split = halves(editor)
-    check(changed_fraction(split[0], normals[0]) < 0.01, "left of the divider are normals")
-    check(changed_fraction(split[1], depth[1]) < 0.01, "right of it is depth")
+    shows(editor, 0, normals, "left of the divider are normals")
+    shows(editor, 1, depth, "right of it is depth")
 
     editor.drag("split/divider", to_fraction(editor, 0.05))
-    split = halves(editor)
-    check(changed_fraction(split[0], depth[0]) < 0.01, "the divider was dragged to the left: depth is there too")
+    shows(editor, 0, depth, "the divider was dragged to the left: depth is there too")
     editor.drag("split/divider", to_fraction(editor, 0.95))
-    split = halves(editor)
-    check(changed_fraction(split[1], normals[1]) < 0.01, "and to the right: normals are there too")
+    shows(editor, 1, normals, "and to the right: normals are there too")
     check(editor.report()["revision"] == revision, "none of this changes the scene")
     editor.click("tools/split")
     editor.wait("one picture", lambda r: "split/divider" not in r["controls"])
