@@ -25,7 +25,9 @@ void test(const std::string& input) {
 std::vector<std::string> read_corpus(const fs::path& place) {
     std::vector<fs::path> files;
     if (fs::is_directory(place))
-        for (const auto& entry : fs::directory_iterator(place)) files.push_back(entry.path());
+        for (const auto& entry : fs::directory_iterator(place)) {
+            if (entry.is_regular_file()) files.push_back(entry.path());
+        }
     else
         files.push_back(place);
     std::sort(files.begin(), files.end());
@@ -44,10 +46,18 @@ std::string changed(std::string text, const std::vector<std::string>& corpus, st
         if (text.empty()) text = corpus[below(corpus.size())];
         const std::size_t at = below(text.size());
         switch (below(5)) {
-            case 0: text[at] ^= static_cast<char>(1u << below(8)); break;
-            case 1: text[at] = static_cast<char>(below(256)); break;
-            case 2: text.erase(at, 1 + below(16)); break;
-            case 3: text.insert(at, text.substr(below(text.size()), 1 + below(64))); break;
+            case 0:
+                text[at] ^= static_cast<char>(1u << below(8));
+                break;
+            case 1:
+                text[at] = static_cast<char>(below(256));
+                break;
+            case 2:
+                text.erase(at, 1 + below(16));
+                break;
+            case 3:
+                text.insert(at, text.substr(below(text.size()), 1 + below(64)));
+                break;
             default: {
                 const std::string& other = corpus[below(corpus.size())];
                 text.replace(at, 1 + below(64), other.substr(below(other.size()), 1 + below(64)));

@@ -24,7 +24,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         require(farfield::to_text(farfield::parse_scene(saved, "b.json")) == saved, "saved, the scene is another one");
     } catch (const farfield::SceneFileError& error) {
         require(error.file == "a.json", "what was saved cannot be read");
-        require(error.line >= 1 && error.line <= 1 + std::count(text.begin(), text.end(), '\n'), "the line is in the file");
+        require(error.line >= 1 && error.line <= 1 + std::count(text.begin(), text.end(), '\n'),
+                "the line is in the file");
         require(!error.problem.empty(), "the error says what is wrong");
     }
     return 0;

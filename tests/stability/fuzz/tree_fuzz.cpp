@@ -1,4 +1,6 @@
 // Any bytes as a tree of nodes: its code compiles, and the program's field is that of the CPU.
+#include "sdf/codegen.h"
+#include "sdf/edit.h"
 #include "sdf/evaluate.h"
 #include "tests/gl_test.h"
 #include "tests/test_support.h"
@@ -78,8 +80,8 @@ void compare(const Scene& scene) {
         const float cpu = field.distance(glm::vec3(points[i]));
         const bool agrees = std::isfinite(cpu) && std::abs(cpu - gpu[i]) <= 1e-4f * std::max(3.0f, std::abs(cpu));
         if (!agrees && differing++ == 0)
-            std::fprintf(stderr, "at (%g, %g, %g): %g on the CPU, %g on the GPU\n", points[i].x, points[i].y, points[i].z, cpu,
-                         gpu[i]);
+            std::fprintf(stderr, "at (%g, %g, %g): %g on the CPU, %g on the GPU\n", points[i].x, points[i].y,
+                         points[i].z, cpu, gpu[i]);
     }
     // Where space is folded, rounding decides on which side a point lies: single points may differ, a program must not.
     if (differing <= 5) return;
