@@ -96,7 +96,7 @@ EditorOutput Editor::frame(const EditorInput& input, const MeasureResults& measu
     if (input.close) files_.quit();
     for (const auto& file : input.dropped) files_.open(file);
     keyboard(input.keys);
-    ui_.audit.refresh(document_.snapshot(), document_.revision(), now_);
+    ui_.audit.refresh(document_.snapshot(), document_.revision(), size_.y, now_);
 
     ui_.frame_milliseconds = input.frame_milliseconds;
     ui_.trust = &trust_;

@@ -1,5 +1,7 @@
 #include "app/picture_overlay.h"
 
+#include "sdf/evaluate.h"
+#include "sdf/local_scene.h"
 #include "sdf/scene_file.h"
 
 #include <fmt/format.h>
@@ -83,13 +85,14 @@ PictureOverlay::Lines PictureOverlay::find(const Request& request) {
         return stop_ || next_;
     };
     const Scene& scene = *request.scene;
-    const FieldEvaluator field(scene);
-    const PictureView view(scene.camera, request.low, request.size);
+    const Scene local = local_scene(scene);
+    const FieldEvaluator field(local);
+    const PictureView view(local.camera, request.low, request.size);
     Lines lines;
     lines.key = request.key;
     if (request.grid) {
         lines.grid = GroundGrid(scene.camera);
-        lines.seen = seen_points(field, view, lines.grid, over);
+        lines.seen = seen_points(FieldEvaluator(scene), {scene.camera, request.low, request.size}, lines.grid, over);
     }
     std::set<Id> shapes;
     std::optional<Box> bounds;

@@ -43,7 +43,7 @@ glm::vec3 grasped(const Scene& shown, const PictureView& view) {
     const Camera& camera = shown.camera;
     const float distance = glm::distance(camera.target, camera.position);
     const Ray ray = view.ray(mouse());
-    const auto hit = pick(FieldEvaluator(shown), ray.origin, ray.direction, 1e-3f);
+    const auto hit = pick(shown, ray.origin, ray.direction, 1e-3f);
     const bool in_reach = hit && hit->distance > 1e-3f * distance && hit->distance < 30.0f * distance;
     if (in_reach) return hit->position;
     const float along = glm::dot(ray.direction, view.basis.forward);
@@ -54,7 +54,7 @@ glm::vec3 grasped(const Scene& shown, const PictureView& view) {
 /// clicks go up the tree.
 Id node_under_mouse(const Ui& ui, const Scene& scene, const PictureView& view) {
     const Ray ray = view.ray(mouse());
-    const std::optional<Pick> hit = pick(FieldEvaluator(scene), ray.origin, ray.direction);
+    const std::optional<Pick> hit = pick(scene, ray.origin, ray.direction);
     if (!hit || find_lock(scene, hit->node)) return scene.root.id;
     if (ImGui::GetIO().KeyCtrl) return hit->node;
     if (ui.selection.type == ObjectType::node)

@@ -1,5 +1,6 @@
 #include "renderer/renderer.h"
 
+#include "sdf/local_scene.h"
 #include "sdf/pick.h"
 
 #include "renderer/records.h"
@@ -40,7 +41,7 @@ FrameRecord frame_record(const Scene& scene, const FrameOptions& options, int fr
     const float aspect = static_cast<float>(options.size.x) / static_cast<float>(options.size.y);
     const glm::vec2 offset = pixel_offset(frame);
     FrameRecord record{};
-    record.camera_position = camera.position;
+    record.camera_position = camera.position - local_origin(camera);
     record.pixel_angle = 2.0f * basis.half_height / static_cast<float>(options.size.y);
     record.camera_right = basis.right * (basis.half_height * aspect);
     record.jitter_x = offset.x;
@@ -69,7 +70,8 @@ std::vector<LightRecord> light_records(const Scene& scene) {
         const bool directional = light.kind == LightKind::directional;
         const float length = glm::length(light.direction);
         const glm::vec3 direction = length > 0.0f ? light.direction / length : glm::vec3(0.0f, -1.0f, 0.0f);
-        records.push_back({directional ? direction : light.position, directional ? 1u : 0u, light.intensity, 0.0f});
+        records.push_back({directional ? direction : light.position - local_origin(scene.camera), directional ? 1u : 0u,
+                           light.intensity, 0.0f});
     }
     return records;
 }
@@ -85,6 +87,8 @@ std::string transport_bytes(const Scene& scene, FrameOptions options) {
     for (const LightRecord& record : light_records(scene)) append_bytes(bytes, record);
     append_bytes(bytes, frame_record(scene, options, 0));
     append_bytes(bytes, scene.settings.bounces);
+    // The records count from there.
+    if (const glm::vec3 origin = local_origin(scene.camera); origin != glm::vec3(0.0f)) append_bytes(bytes, origin);
     return bytes;
 }
 

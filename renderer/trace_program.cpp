@@ -2,6 +2,7 @@
 
 #include "renderer/context.h"
 #include "renderer/records.h"
+#include "sdf/local_scene.h"
 #include "sdf/scene_parts.h"
 
 #include <fmt/format.h>
@@ -44,6 +45,11 @@ std::string explain(const Scene& scene, const GeneratedScene& generated, const s
     if (line >= generated.line_nodes.size()) return log;
     const Node* node = find_node(scene, generated.line_nodes[line]);
     return node ? fmt::format("node \"{}\": {}", display_name(*node), log) : log;
+}
+
+/// What programs are made of.
+std::vector<Scene> local_parts(const Scene& scene, Id tuned) {
+    return local_origin(scene.camera) == glm::vec3(0.0f) ? scene_parts(scene) : scene_parts(local_scene(scene, tuned));
 }
 
 }  // namespace
@@ -96,7 +102,7 @@ TracePrograms::Codes TracePrograms::codes(const Scene& scene, Tier tier, Id tune
                           [](const Material& x, const Material& y) { return x.id == y.id; });
     };
     Codes codes;
-    for (Scene& part : scene_parts(scene)) {
+    for (Scene& part : local_parts(scene, tuned)) {
         const Id tuned_here = find_node(part, tuned) ? tuned : 0;
         std::shared_ptr<const Code> code;
         for (const Codes& others : codes_)

@@ -18,7 +18,7 @@ class TracePrograms {
 public:
     TracePrograms();
 
-    /// Makes the programs of `scene` (see generate) current for `trace`; compiles those that the cache has not. When
+    /// Makes the programs of `scene` (see generate) current for `trace`, whose rays count from local_origin of its camera; compiles those that the cache has not. When
     /// that fails it throws ShaderError whose message names the node, and the last good programs stay.
     void select(const Scene& scene, Tier tier, Id tuned = 0);
     /// How many programs select would have to compile, at least one for a scene that is refused.

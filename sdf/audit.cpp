@@ -1,6 +1,8 @@
 #include "sdf/audit.h"
 
 #include "sdf/evaluate.h"
+#include "sdf/pick.h"
+#include "sdf/placement.h"
 #include "sdf/slope_search.h"
 
 #include <fmt/format.h>
@@ -11,6 +13,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <regex>
 #include <unordered_map>
 
 namespace farfield {
@@ -37,6 +40,20 @@ double cost(const FieldTree& tree, const FieldNode& node) {
 std::string lower_case(std::string text) {
     if (!text.empty()) text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
     return text;
+}
+
+Finding with_thickness(Finding finding, float enough) {
+    finding.fix = fmt::format("Make thickness {:.3g} m", enough);
+    finding.edits = {SetValue{{ObjectType::node, finding.node}, "thickness", vec3(enough, 0.0f, 0.0f)}};
+    return finding;
+}
+
+/// The code with another constant, which is written in front where there was none.
+std::string with_lipschitz(const std::string& code, const std::string& value) {
+    static const std::regex declared(R"(const\s+float\s+lipschitz\s*=[^;]*;)");
+    const std::string line = fmt::format("const float lipschitz = {};", value);
+    const std::string changed = std::regex_replace(code, declared, line, std::regex_constants::format_first_only);
+    return changed != code ? changed : line + "\n" + code;
 }
 
 std::string origin(const FieldNode& node) {
@@ -98,13 +115,16 @@ private:
         for (const FieldNode& child : node.children) remember(child);
     }
 
-    void find(Id node, std::string message) { audit_.findings.push_back({node, std::move(message)}); }
+    void find(Id node, std::string message, std::string fix = {}, Edits edits = {}) {
+        audit_.findings.push_back({node, std::move(message), std::move(fix), std::move(edits)});
+    }
 
     /// `hidden`: it is in a hidden node.
     void visit(const Node& node, int depth, bool hidden = false) {
         hidden = hidden || node.hidden;
         const auto found = parts_.find(node.id);
         const FieldNode* part = found == parts_.end() ? nullptr : found->second;
+        const std::size_t place = audit_.nodes.size();
         NodeAudit& entry = audit_.nodes.emplace_back(NodeAudit{node.id,
                                                                &info(node.kind),
                                                                depth,
@@ -122,18 +142,21 @@ private:
             entry.stretch = part->stretch();
             entry.origin = origin(*part);
             by_numbers(*part);
-            by_trying(*part, entry);
         } else {
             entry.origin = hidden ? "is hidden" : "adds no shape";
             if (!hidden) nothing_shows(node);
         }
+        const int before = steep_;
         for (const Node& child : node.children) visit(child, depth + 1, hidden);
+        if (part) by_trying(*part, audit_.nodes[place], steep_ > before);
     }
 
     /// Told of the nodes that are the reason, not of all that they are in.
     void nothing_shows(const Node& node) {
+        const bool removable = find_parent(scene_, node.id) && !find_lock(scene_, node.id);
         if (node.children.empty())
-            find(node.id, "nothing is in it, so that it never shows");
+            find(node.id, "nothing is in it, so that it never shows", removable ? "Delete it" : "",
+                 removable ? Edits{RemoveNode{node.id}} : Edits{});
         else if (const Node* first = first_shown(node);
                  first && node.kind == NodeKind::subtract && is_empty(scene_, *first) && !is_empty_group(node))
             find(node.id, "its first child holds no shape to subtract from, so that nothing of it shows");
@@ -147,8 +170,12 @@ private:
     void by_numbers(const FieldNode& node) {
         const KindInfo& kind = *node.kind;
         if (kind.warnings)
-            for (std::string& warning : kind.warnings(content_extent(node), node.children.size(), node.values))
-                find(node.id, std::move(warning));
+            for (std::string& warning : kind.warnings(content_extent(node), node.children.size(), node.values)) {
+                if (kind.kind == NodeKind::shell)
+                    audit_.findings.push_back(with_thickness({node.id, std::move(warning)}, thinnest_skin));
+                else
+                    find(node.id, std::move(warning));
+            }
         if (kind.gather == Gather::all && kind.role == Role::combine) empty_intersection(node);
     }
 
@@ -168,7 +195,8 @@ private:
             }
     }
 
-    void by_trying(const FieldNode& node, NodeAudit& entry) {
+    /// `explained`: something in it has been found to be too steep, and it is so by that.
+    void by_trying(const FieldNode& node, NodeAudit& entry, bool explained) {
         const double most = share_ / (5.0 * cost(tree_, node));
         const int samples = static_cast<int>(std::min<double>(options_.samples, most));
         if (samples < std::min(fewest_samples, options_.samples) || samples == 0 || stopped(options_)) return;
@@ -181,11 +209,13 @@ private:
         if (search.not_finite())
             return find(node.id,
                         fmt::format("its value is not finite at {} of its parent's frame", text(*search.not_finite())));
-        if (entry.slope > most_relative) {
+        if (entry.slope > most_relative && !explained) {
+            ++steep_;
             const SlopeSearch::Pair& pair = search.steepest();
             find(node.id, fmt::format("steeper than promised: {:.6g} at {} and {:.6g} at {}, in its parent's frame, a "
                                       "slope of {:.4g} where at most 1 is safe",
                                       pair.fa, text(pair.a), pair.fb, text(pair.b), pair.slope));
+            if (node.code) slow_down(node, pair.slope, audit_.findings.back());
         }
         if (!node.kind->stretch) return;
 
@@ -208,6 +238,15 @@ private:
                  fmt::format("steeper than promised before it is made safe: a slope of {:.4g} between {} and "
                              "{}, in its own frame, where {:.4g} was to be the most",
                              *entry.unsafe_slope, text(unsafe.steepest().a), text(unsafe.steepest().b), entry.stretch));
+    }
+
+    /// Custom code that promises too little: a larger constant, with a tenth to spare for what no pair has met.
+    static void slow_down(const FieldNode& node, float slope, Finding& finding) {
+        const std::string enough = fmt::format("{:.2g}", 1.1f * slope * node.code->lipschitz());
+        const std::string text = with_lipschitz(node.code->text(), enough);
+        if (!CustomCode::parse(text).errors.empty()) return;
+        finding.fix = fmt::format("Promise lipschitz = {}", enough);
+        finding.edits = {SetCode{node.id, text}};
     }
 
     void far_away() {
@@ -233,6 +272,7 @@ private:
     const AuditOptions& options_;
     std::unordered_map<Id, const FieldNode*> parts_;
     double share_ = 0.0;  ///< of the evaluations, for one node
+    int steep_ = 0;       ///< nodes found to be steeper than they promise
     Audit audit_;
 };
 
@@ -244,6 +284,31 @@ const NodeAudit* Audit::find(Id node) const {
 }
 
 Audit audit(const Scene& scene, const AuditOptions& options) { return Auditor(scene, options).result(); }
+
+std::vector<Finding> thin_from_camera(const Scene& scene, const Audit& audit, int picture_height) {
+    std::vector<Finding> findings;
+    if (picture_height <= 0) return findings;
+    const vec3 eye = scene.camera.position;
+    const float pixel_angle = 2.0f * CameraBasis(scene.camera).half_height / static_cast<float>(picture_height);
+    for (const NodeAudit& entry : audit.nodes) {
+        if (entry.kind->kind != NodeKind::shell || !entry.shows) continue;
+        const Node* node = find_node(scene, entry.id);
+        if (!node || find_top(scene, entry.id) != &scene.root) continue;
+        const float scale = frame_of(scene, entry.id).scale, thickness = node->values[0].x;
+        const float pixel =
+            pixel_angle * glm::distance(eye, glm::clamp(eye, entry.world.low, entry.world.high)) / scale;
+        // Thinner than rays can see is another finding, and worse; equal but for rounding is wide enough.
+        if (!(thickness < 0.999f * pixel) || thickness < thinnest_skin) continue;
+        const float enough = std::min(largest_value, pixel * 1.05f);
+        findings.push_back(with_thickness(
+            {entry.id,
+             fmt::format("its skin of {:.3g} m is {:.2g} pixels thick from here: edges of it come and go with the "
+                         "samples",
+                         thickness, thickness / pixel)},
+            enough));
+    }
+    return findings;
+}
 
 std::string size_text(const Box& box) {
     std::array<std::string, 3> sides;

@@ -2,6 +2,7 @@
 // promised to be and why, how steep it is at points taken at random, and what is odd about the node.
 #pragma once
 
+#include "sdf/edit.h"
 #include "sdf/field_tree.h"
 
 #include <atomic>
@@ -11,6 +12,9 @@
 #include <vector>
 
 namespace farfield {
+
+/// Metres; rays stop about as far from a surface a metre away.
+inline constexpr float thinnest_skin = 1e-4f;
 
 struct AuditOptions {
     int samples = 2000;  ///< pairs of points for each node; 0: only what follows from the numbers
@@ -25,6 +29,8 @@ struct AuditOptions {
 struct Finding {
     Id node;
     std::string message;  ///< one sentence without a full stop
+    std::string fix{};    ///< what would mend it, as a button says it; empty: nothing that is sure to
+    Edits edits{};        ///< and does
 };
 
 struct NodeAudit {
@@ -50,6 +56,10 @@ struct Audit {
 };
 
 Audit audit(const Scene& scene, const AuditOptions& options = {});
+
+/// Skins that are thinner than a pixel from the scene's camera, in a picture of so many pixels' height. `audit`: of the
+/// same shapes.
+std::vector<Finding> thin_from_camera(const Scene& scene, const Audit& audit, int picture_height);
 
 /// "1.2 x 0.4 x 3 m"; "no end" along axes without one.
 std::string size_text(const Box& box);

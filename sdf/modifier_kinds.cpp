@@ -1,4 +1,5 @@
 // Operations on space and on the distance; their functions are in operations.glsl.
+#include "sdf/audit.h"
 #include "sdf/kind_table.h"
 
 namespace farfield {
@@ -169,9 +170,8 @@ Warnings flat_warnings(const Extent& content, std::size_t, Values) {
 }
 
 Warnings shell_warnings(const Extent&, std::size_t, Values v) {
-    constexpr float thinnest = 1e-4f;  // metres; rays stop about as far from a surface a metre away
-    if (v[0].x >= thinnest) return {};
-    return {fmt::format("a skin of {:.3g} m is thinner than rays can see; at least {:g} m", v[0].x, thinnest)};
+    if (v[0].x >= thinnest_skin) return {};
+    return {fmt::format("a skin of {:.3g} m is thinner than rays can see; at least {:g} m", v[0].x, thinnest_skin)};
 }
 
 /// "twist: 110 °/m at up to 0.42 m from the axis".

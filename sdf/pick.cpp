@@ -1,5 +1,7 @@
 #include "sdf/pick.h"
 
+#include "sdf/local_scene.h"
+
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
@@ -44,6 +46,13 @@ std::optional<Pick> pick(const FieldEvaluator& field, glm::vec3 origin, glm::vec
         t += d;
     }
     return std::nullopt;
+}
+
+std::optional<Pick> pick(const Scene& scene, glm::vec3 origin, glm::vec3 direction, float footprint) {
+    const glm::vec3 from = local_origin(scene.camera);
+    auto hit = pick(FieldEvaluator(local_scene(scene)), origin - from, direction, footprint);
+    if (hit) hit->position += from;
+    return hit;
 }
 
 }  // namespace farfield

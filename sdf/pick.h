@@ -28,5 +28,7 @@ struct Pick {
 /// The first surface that the ray meets; direction is unit length. None where it meets nothing or gives up after 2,000
 /// steps. `footprint`: how far off a hit may be for each metre travelled.
 std::optional<Pick> pick(const FieldEvaluator& field, glm::vec3 origin, glm::vec3 direction, float footprint = 1e-4f);
+/// The same of a scene, for rays near its camera, wherever that is (sdf/local_scene.h).
+std::optional<Pick> pick(const Scene& scene, glm::vec3 origin, glm::vec3 direction, float footprint = 1e-4f);
 
 }  // namespace farfield

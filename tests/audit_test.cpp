@@ -1,5 +1,6 @@
 // What an audit finds, one scene for each; and that it finds nothing where nothing is wrong.
 #include "sdf/audit.h"
+#include "sdf/custom_code.h"
 #include "sdf/evaluate.h"
 #include "sdf/scene_file.h"
 #include "sdf/slope_search.h"
@@ -288,6 +289,47 @@ TEST(FiniteBounds, LeaveOutTheGround) {
     ASSERT_TRUE(ground);
     EXPECT_EQ(ground->high.y, 0.0f);  // a half-space ends where it does
     EXPECT_FALSE(ground->is_bounded(1));
+}
+
+/// Every fix that is offered mends what it stands beside: the finding is gone after it.
+TEST(AuditFixes, MendWhatTheyStandBeside) {
+    Scene scene = scene_of(R"({"kind": "shell", "name": "skin", "thickness": 1e-6, "children": [{"kind": "sphere"}]},
+        {"kind": "mirror", "name": "nothing"},
+        {"kind": "custom", "name": "steep", "code": ["float sdf(vec3 p) { return 2.5 * (length(p) - 0.5); }"]},
+        {"kind": "custom", "name": "declared", "code": ["const float lipschitz = 1.2;",
+            "float sdf(vec3 p) { return 2.0 * (length(p) - 0.5); }"]})");
+    int fixes = 0;
+    for (const Finding& finding : audit(scene).findings) {
+        ASSERT_FALSE(finding.edits.empty()) << finding.message;
+        EXPECT_FALSE(finding.fix.empty());
+        apply_all(scene, finding.edits);
+        ++fixes;
+    }
+    EXPECT_EQ(fixes, 4);
+    EXPECT_EQ(messages(audit(scene)), "");
+    for (const Node& node : scene.root.children)
+        if (node.name == "declared") {
+            EXPECT_EQ(node.code->text().find("const float lipschitz = 2.2;"), 0u) << node.code->text();
+        }
+}
+
+TEST(AuditFixes, ASkinThinnerThanAPixelIsFoundFromWhereItIs) {
+    Scene scene = scene_of(
+        R"({"kind": "shell", "name": "skin", "thickness": 0.004, "scale": 0.5, "children": [{"kind": "sphere"}]})");
+    const auto found = [&](float z, int height) {
+        scene.camera.position = {0.0f, 0.0f, z};
+        scene.camera.target = glm::vec3(0.0f, 0.0f, z - 1.0f);
+        return thin_from_camera(scene, audit(scene, {.samples = 0}), height);
+    };
+    EXPECT_TRUE(found(1.0f, 500).empty());     // 1.1 mm a pixel, 2 mm a skin
+    EXPECT_TRUE(found(0.1f, 10).empty());      // from inside
+    EXPECT_TRUE(found(20.0f, 20000).empty());  // a fine picture
+    EXPECT_TRUE(found(20.0f, 0).empty());      // no picture
+    const std::vector<Finding> far = found(20.0f, 500);
+    ASSERT_EQ(far.size(), 1u);
+    apply_all(scene, far[0].edits);
+    EXPECT_NEAR(scene.root.children[0].values[0].x, 2.0f * 1.05f * 19.75f * 2.0f * 0.364f / 500.0f, 1e-3f);
+    EXPECT_TRUE(found(20.0f, 500).empty());
 }
 
 }  // namespace

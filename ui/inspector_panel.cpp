@@ -186,16 +186,21 @@ void slope_row(Ui& ui, const NodeAudit& audit) {
 }
 
 /// What is known about the node's distance field.
-void field_block(Ui& ui, const Node& node) {
+void field_block(Ui& ui, const Node& node, Edits& edits) {
     const NodeAudit* audit = ui.audit.find(node.id);
     if (!audit || (!audit->shows && node.children.empty())) return;
     section(ui, "Field");
-    for (const std::string& warning : ui.audit.warnings(node.id)) {
+    for (const Finding& warning : ui.audit.warnings(node.id)) {
         const ImVec2 start = ImGui::GetCursorScreenPos();
         draw_warning(ui, {start.x + ui.theme.px(7.0f), start.y + ImGui::GetTextLineHeight() * 0.5f});
         ImGui::Indent(ui.theme.px(20.0f));
-        wrapped(ui.theme.warning, warning);
+        wrapped(ui.theme.warning, warning.message);
         ui.report.item("inspector", "warning");
+        if (!warning.edits.empty()) {
+            if (ImGui::Button(warning.fix.c_str()))
+                edits.insert(edits.end(), warning.edits.begin(), warning.edits.end());
+            ui.report.item("inspector", "fix");
+        }
         ImGui::Unindent(ui.theme.px(20.0f));
     }
     if (!audit->shows) return;
@@ -273,7 +278,7 @@ void inspect_node(Ui& ui, const Scene& scene, const Node& node, Edits& edits) {
         ImGui::TextDisabled("Nothing inside yet: it shows once it holds a shape. Press + Add, or drag nodes onto it.");
         ImGui::PopTextWrapPos();
     }
-    field_block(ui, node);
+    field_block(ui, node, edits);
     if (find_definition(scene, node.id))
         delete_button(ui, scene, "Delete definition", count_uses(scene, node.id) == 0, edits);
     else if (node.id != scene.root.id)

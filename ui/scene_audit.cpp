@@ -21,7 +21,8 @@ std::string shapes_text(const Scene& scene) {
 
 }  // namespace
 
-void SceneAudit::refresh(const std::shared_ptr<const Scene>& scene, std::uint64_t revision, double now) {
+void SceneAudit::refresh(const std::shared_ptr<const Scene>& scene, std::uint64_t revision, int picture_height,
+                         double now) {
     if (finished()) {
         show(run_.get());
         sampled_ = true;
@@ -39,6 +40,8 @@ void SceneAudit::refresh(const std::shared_ptr<const Scene>& scene, std::uint64_
         options.samples = 0;
         show(audit(*scene, options));
     }
+    of_view_ = thin_from_camera(*scene, audit_, picture_height);
+    note_warnings();
     constexpr double share = 0.1;  // of the time, at most
     next_ = now + std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() / share;
 }
@@ -67,9 +70,14 @@ void SceneAudit::cancel() {
 void SceneAudit::show(Audit audit) {
     audit_ = std::move(audit);
     nodes_.clear();
-    warnings_.clear();
     for (const NodeAudit& node : audit_.nodes) nodes_.emplace(node.id, &node);
-    for (const Finding& finding : audit_.findings) warnings_[finding.node].push_back(finding.message);
+    note_warnings();
+}
+
+void SceneAudit::note_warnings() {
+    warnings_.clear();
+    for (const auto* findings : {&audit_.findings, &of_view_})
+        for (const Finding& finding : *findings) warnings_[finding.node].push_back(finding);
 }
 
 const NodeAudit* SceneAudit::find(Id node) const {
@@ -77,8 +85,8 @@ const NodeAudit* SceneAudit::find(Id node) const {
     return found == nodes_.end() ? nullptr : found->second;
 }
 
-const std::vector<std::string>& SceneAudit::warnings(Id node) const {
-    static const std::vector<std::string> none;
+const std::vector<Finding>& SceneAudit::warnings(Id node) const {
+    static const std::vector<Finding> none;
     const auto found = warnings_.find(node);
     return found == warnings_.end() ? none : found->second;
 }

@@ -24,7 +24,8 @@ public:
     /// Looks at the scene when its shapes are others than before; `revision` tells without looking that nothing has
     /// changed. Takes over what the thread has found. `now`: seconds; where a scene takes long it is not looked at each
     /// time.
-    void refresh(const std::shared_ptr<const Scene>& scene, std::uint64_t revision, double now);
+    /// `picture_height`: of the picture in pixels.
+    void refresh(const std::shared_ptr<const Scene>& scene, std::uint64_t revision, int picture_height, double now);
     /// Begins to try points of every node.
     void start();
     bool running() const { return run_.valid(); }
@@ -33,11 +34,12 @@ public:
 
     const NodeAudit* find(Id node) const;
     /// Empty where there are none.
-    const std::vector<std::string>& warnings(Id node) const;
+    const std::vector<Finding>& warnings(Id node) const;
 
 private:
     void cancel();
     void show(Audit audit);
+    void note_warnings();
 
     std::shared_ptr<const Scene> scene_;
     std::uint64_t revision_ = 0;
@@ -45,8 +47,9 @@ private:
     double next_ = 0.0;   ///< when it may be looked at again
     bool sampled_ = false;
     Audit audit_;
+    std::vector<Finding> of_view_;  ///< what hangs on the camera
     std::map<Id, const NodeAudit*> nodes_;
-    std::map<Id, std::vector<std::string>> warnings_;
+    std::map<Id, std::vector<Finding>> warnings_;
     std::atomic<bool> stop_{false};
     std::future<Audit> run_;
 };

@@ -170,8 +170,10 @@ private:
         ui_.report.rectangle("tree_warning", name, low, high);
         if (!ImGui::IsMouseHoveringRect(low, high)) return;
         std::string text;
-        for (const std::string& warning : ui_.audit.warnings(node)) text += (text.empty() ? "" : "\n") + warning;
-        tooltip(ui_, text);
+        const std::vector<Finding>& found = ui_.audit.warnings(node);
+        for (const Finding& warning : found) text += (text.empty() ? "" : "\n") + warning.message;
+        const bool mends = std::ranges::any_of(found, [](const Finding& f) { return !f.edits.empty(); });
+        tooltip(ui_, text, mends ? "The inspector mends it with a click" : "");
     }
 
     /// Whether the mark was clicked; `lit`: the mouse is on it.

@@ -141,20 +141,18 @@ Built crack_room(double width) {
     return scene;
 }
 
-/// How far the mean of the values is from 0, less two standard errors.
-double beyond_noise(const std::vector<double>& values) {
+struct Mean {
+    double value = 0.0, standard_error = 0.0;
+    /// How far it is from 0, less three standard errors.
+    double beyond_noise() const { return std::max(std::abs(value) - 3.0 * standard_error, 0.0); }
+};
+
+Mean mean_of(const std::vector<double>& values) {
     double sum = 0.0, squares = 0.0;
     for (const double v : values) sum += v, squares += v * v;
     const double n = static_cast<double>(values.size()), middle = sum / n;
-    const double standard_error = std::sqrt(std::max(squares / n - middle * middle, 0.0) / (n - 1.0));
-    return std::max(std::abs(middle) - 2.0 * standard_error, 0.0);
+    return {middle, std::sqrt(std::max(squares / n - middle * middle, 0.0) / (n - 1.0))};
 }
-
-/// Pictures at 16 samples of several seeds against what indirect light tends to.
-struct Fireflies {
-    std::array<double, 3> bias{};        ///< see biases
-    std::array<double, 3> percentile{};  ///< 99.9 % of the absolute errors of pixels are below that, over the mean
-};
 
 /// Means of pictures by seed. The reference's bias is against the truth, that of the others against the reference of
 /// the same samples, whose noise they share.
@@ -166,9 +164,24 @@ struct Biases {
             values[static_cast<std::size_t>(m)].push_back(
                 (m == Method::reference ? raw - level : mean(pictures.indirect(m)) - raw) / level);
     }
-    std::array<double, 3> result() const {
-        return {beyond_noise(values[0]), beyond_noise(values[1]), beyond_noise(values[2])};
+    Figures result() const {
+        Figures figures;
+        std::vector<std::string> notes;
+        for (const Method m : methods) {
+            const Mean found = mean_of(values[static_cast<std::size_t>(m)]);
+            figures[m] = found.beyond_noise();
+            notes.push_back(fmt::format("{} {:+.2f} ± {:.2f} %", method_names[static_cast<std::size_t>(m)],
+                                        100.0 * found.value, 100.0 * found.standard_error));
+        }
+        figures.note = fmt::format("{}", fmt::join(notes, ", "));
+        return figures;
     }
+};
+
+/// Pictures at 16 samples of several seeds against what indirect light tends to.
+struct Fireflies {
+    Figures bias;                        ///< see Biases
+    std::array<double, 3> percentile{};  ///< 99.9 % of the absolute errors of pixels are below that, over the mean
 };
 
 Fireflies fireflies(Stage& stage, const Scene& scene, const Image& truth) {
@@ -211,8 +224,6 @@ const Fireflies& of_crack(Stage& stage, const Point& p) {
     if (fresh) at->second = fireflies(stage, room, truth_of(stage, room, 4096));
     return at->second;
 }
-
-Figures bias_of(const Fireflies& f) { return {{f.bias[0], f.bias[1], f.bias[2]}, ""}; }
 
 /// Over that of the reference at the same samples, which takes what paths find as it is.
 Figures size_of(const Fireflies& f) {
@@ -278,8 +289,7 @@ Figures mean_bias(Stage& stage, const Scene& scene, int samples, int seeds) {
     Biases biases;
     for (std::uint32_t seed = 1; seed <= static_cast<std::uint32_t>(seeds); ++seed)
         biases.add(stage.render(scene, seeded(seed), samples), level);
-    const auto found = biases.result();
-    return {{found[0], found[1], found[2]}, ""};
+    return biases.result();
 }
 
 Figures radius_bias(Stage& stage, const Point& p) {
@@ -296,7 +306,7 @@ Figures sample_bias(Stage& stage, const Point& p) {
 }  // namespace
 
 std::vector<Case> light_cases() {
-    const char* bias = "|bias| of indirect light beyond two standard errors";
+    const char* bias = "|bias| of indirect light beyond three standard errors";
     const char* percentile = "99.9th percentile of pixels' errors / that of the reference";
     const std::string rare = "small emitter at equal power: fireflies";
     const std::string cracks = "bright sky through a crack: fireflies";
@@ -313,7 +323,7 @@ std::vector<Case> light_cases() {
              "side of the emitter, m",
              {0.4, 0.2, 0.1, 0.05},
              bias,
-             [](Stage& s, const Point& p) { return bias_of(of_panel(s, p)); },
+             [](Stage& s, const Point& p) { return of_panel(s, p).bias; },
              at_most(0.01)},
             {"emitter-fireflies",
              rare,
@@ -327,7 +337,7 @@ std::vector<Case> light_cases() {
              "width of the crack, m",
              {0.2, 0.1, 0.05, 0.02},
              bias,
-             [](Stage& s, const Point& p) { return bias_of(of_crack(s, p)); },
+             [](Stage& s, const Point& p) { return of_crack(s, p).bias; },
              at_most(0.01)},
             {"crack-fireflies",
              cracks,
@@ -354,7 +364,7 @@ std::vector<Case> light_cases() {
              "AO radius: near light counted twice or not at all",
              "AO radius, m",
              {0.05, 0.1, 0.2, 0.5, 1, 2, 10},
-             "|bias| of indirect light beyond two standard errors, 64 samples",
+             "|bias| of indirect light beyond three standard errors, 64 samples",
              radius_bias,
              at_most(0.01)},
             {"samples-bias",

@@ -73,7 +73,7 @@ int main(int argc, char** argv) {
     bool quick = false;
     double soak_minutes = 0.3;
     app.add_option("case", only, "Those whose name contains one of these; all by default");
-    app.add_option("-o,--output", folder, "Write the report into this folder");
+    app.add_option("-o,--output", folder, "Write the report into this folder")->take_last();
     app.add_flag("--quick", quick, "Those that are part of the test suite");
     app.add_option("--minutes", soak_minutes, "Of random edits in the case soak")->check(CLI::Range(0.05, 10000.0));
     CLI11_PARSE(app, argc, argv);
