@@ -36,14 +36,14 @@ def select(editor, name):
 
 def still_life(editor):
     editor.click("tree/fruit bowl")
-    lit(editor, 48)
+    lit(editor, 16)
 
 
 def code(editor):
     editor.key("F4")
     editor.wait("the code", lambda r: "code" in r)
     editor.click("tree/gyroid")
-    lit(editor, 48)
+    lit(editor, 16)
 
 
 def split(editor):
@@ -59,7 +59,7 @@ def measure(editor):
 
 def palette(editor):
     editor.click("tree/tiers")
-    lit(editor, 32)
+    lit(editor, 16)
     editor.key("a")
     editor.wait("the list", lambda r: "add/search" in r["controls"])
     editor.type("cy")
@@ -69,13 +69,13 @@ def arrange(editor):
     editor.click("tree/boss")
     x, y = editor.point_at("tree/base")
     editor.display.xdotool("keydown", "ctrl", "click", 1, "keyup", "ctrl")
-    lit(editor, 32)
+    lit(editor, 16)
     editor.display.xdotool("mousemove", x, y, "click", 3)
 
 
 def history(editor):
     editor.key("ctrl+h")
-    lit(editor, 16)
+    lit(editor, 8)
 
 
 def files(editor):
@@ -86,7 +86,7 @@ def files(editor):
 
 def lights(editor):
     editor.click("light/lamp")
-    lit(editor, 32)
+    lit(editor, 16)
 
 
 def steps(editor):
@@ -122,6 +122,8 @@ def main():
             start = time.monotonic()
             with Editor(display, program, Path(work) / "scenes" / f"{scene}.json", Path(work) / "report.json") as editor:
                 editor.wait("a picture", lambda r: r["pictures"] >= 2)
+                windows = display.xdotool("search", "--onlyvisible", "--name", "Farfield").split()
+                display.xdotool("windowfocus", windows[0])
                 pose(editor)
                 time.sleep(1.0)
                 display.save(str(Path(work) / "screen.png"))
