@@ -47,12 +47,16 @@ void main() {
             energy += weight * dot(d.rgb, d.rgb) / 3.0;
             noise += weight * d.w;
         }
-    float bias = max(energy - 1.25 * noise, 0.0);  // k: measured, see METHOD.md
+    // Where few paths have brought what light there is, a detail's noise is as uncertain as the light itself: the bright paths
+    // pass for detail, the dark between them does not, and light would be gained. See METHOD.md.
+    vec3 so_far = texelFetch(coarser, at, 0).rgb;
+    float uncertain = noise / (noise + 0.1 * dot(so_far, so_far) / 3.0 + 1e-30);
+    float bias = max(energy - (1.25 + 2.5 * uncertain) * noise, 0.0);  // k: measured, see METHOD.md
     float alpha = bias > 0.0 ? bias / (bias + noise) : 0.0;
     float openness = texelFetch(narrow_far, at, 0).w;
     vec4 widest = texelFetch(coarsest_near, at, 0);
     vec3 result = level == coarsest ? light(texelFetch(coarsest_far, at, 0), widest.rgb, openness, level)
-                                    : texelFetch(coarser, at, 0).rgb + alpha * texelFetch(detail, at, 0).rgb;
+                                    : so_far + alpha * texelFetch(detail, at, 0).rgb;
     imageStore(estimate, at, vec4(result, 1.0));
     if (level == 0) return;
     vec4 near = texelFetch(finer_near, at, 0);

@@ -191,7 +191,7 @@ Fireflies fireflies(Stage& stage, const Scene& scene, const Image& truth) {
     Biases biases;
     std::array<std::vector<double>, 3> errors;
     for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
-        const Pictures pictures = stage.render(scene, seeded(seed), 16);
+        const Pictures pictures = stage.render(scene, seeded(seed), 4, 4);  // as the editor does
         biases.add(pictures, level);
         for (const Method m : methods) {
             const Image image = pictures.indirect(m);
@@ -208,12 +208,27 @@ Fireflies fireflies(Stage& stage, const Scene& scene, const Image& truth) {
     return result;
 }
 
+/// The reference's own bias against the exact light; of more samples, because few of them find a small emitter.
+Mean emitter_gain(Stage& stage, const Scene& scene, double level) {
+    std::vector<double> found;
+    for (std::uint32_t seed = 1; seed <= 8; ++seed)
+        found.push_back(mean(stage.render(scene, seeded(seed), 64, 8).indirect(Method::reference)) / level - 1.0);
+    return mean_of(found);
+}
+
 /// Kept for the two cases that look at the same pictures.
 const Fireflies& of_panel(Stage& stage, const Point& p) {
     static std::map<double, Fireflies> kept;
     const auto [at, fresh] = kept.try_emplace(p.value);
     const PanelRoom room(p.value);
-    if (fresh) at->second = fireflies(stage, room.scene, exact(stage, room));
+    if (fresh) {
+        const Image truth = exact(stage, room);
+        const Mean gain = emitter_gain(stage, room.scene, mean(truth));
+        at->second = fireflies(stage, room.scene, truth);
+        at->second.bias[Method::reference] = gain.beyond_noise();
+        at->second.bias.note += fmt::format("; reference with 4,096 samples {:+.2f} ± {:.2f} %", 100.0 * gain.value,
+                                            100.0 * gain.standard_error);
+    }
     return at->second;
 }
 
@@ -287,8 +302,9 @@ Figures plateau(Stage& stage, const Point& p) {
 Figures mean_bias(Stage& stage, const Scene& scene, int samples, int seeds) {
     const double level = mean(kept_truth(stage, scene, "door"));
     Biases biases;
+    const int of_frame = std::min(samples, 4);  // see errors
     for (std::uint32_t seed = 1; seed <= static_cast<std::uint32_t>(seeds); ++seed)
-        biases.add(stage.render(scene, seeded(seed), samples), level);
+        biases.add(stage.render(scene, seeded(seed), of_frame, samples / of_frame), level);
     return biases.result();
 }
 
@@ -310,70 +326,81 @@ std::vector<Case> light_cases() {
     const char* percentile = "99.9th percentile of pixels' errors / that of the reference";
     const std::string rare = "small emitter at equal power: fireflies";
     const std::string cracks = "bright sky through a crack: fireflies";
-    return {{"wall-in-pixels",
-             "bright and dark room: the filter leaks",
-             "thickness of the wall, pixels",
-             {0.5, 1, 2, 4, 8},
-             "light on the dark side / on the bright side, 4 samples",
-             wall_leak,
-             at_most(0.02),
-             true},
-            {"emitter-bias",
-             rare,
-             "side of the emitter, m",
-             {0.4, 0.2, 0.1, 0.05},
-             bias,
-             [](Stage& s, const Point& p) { return of_panel(s, p).bias; },
-             at_most(0.01)},
-            {"emitter-fireflies",
-             rare,
-             "side of the emitter, m",
-             {0.4, 0.2, 0.1, 0.05},
-             percentile,
-             [](Stage& s, const Point& p) { return size_of(of_panel(s, p)); },
-             at_most(1.0)},
-            {"crack-bias",
-             cracks,
-             "width of the crack, m",
-             {0.2, 0.1, 0.05, 0.02},
-             bias,
-             [](Stage& s, const Point& p) { return of_crack(s, p).bias; },
-             at_most(0.01)},
-            {"crack-fireflies",
-             cracks,
-             "width of the crack, m",
-             {0.2, 0.1, 0.05, 0.02},
-             percentile,
-             [](Stage& s, const Point& p) { return size_of(of_crack(s, p)); },
-             at_most(1.0)},
-            {"door-ajar",
-             "dark room, door ajar: hard visibility",
-             "samples",
-             {4, 16, 64, 256},
-             "RMSE of indirect light / that of the reference at equal samples",
-             door_error,
-             at_most(1.0)},
-            {"many-samples",
-             "many samples: the error stops falling",
-             "samples",
-             {4, 16, 64, 256, 1024},
-             "RMSE x √samples / that of the reference at 4 samples",
-             plateau,
-             at_most(1.3)},
-            {"ao-radius",
-             "AO radius: near light counted twice or not at all",
-             "AO radius, m",
-             {0.05, 0.1, 0.2, 0.5, 1, 2, 10},
-             "|bias| of indirect light beyond three standard errors, 64 samples",
-             radius_bias,
-             at_most(0.01)},
-            {"samples-bias",
-             "few samples: a ratio of estimates is biased",
-             "samples",
-             {1, 2, 4, 16, 64},
-             bias,
-             sample_bias,
-             at_most(0.01)}};
+    return {
+        {"wall-in-pixels",
+         "bright and dark room: the filter leaks",
+         "thickness of the wall, pixels",
+         {0.5, 1, 2, 4, 8},
+         "light on the dark side / on the bright side, 4 samples",
+         wall_leak,
+         at_most(0.02),
+         true},
+        {"emitter-bias",
+         rare,
+         "side of the emitter, m",
+         {0.4, 0.2, 0.1, 0.05},
+         bias,
+         [](Stage& s, const Point& p) { return of_panel(s, p).bias; },
+         at_most(0.01),
+         false,
+         "The reference gains light, and what is measured against it gains as much: rays hit as far off as the "
+         "tracer's "
+         "tolerance, by which emitters are larger than they are; see the figures below. With 1/16 of the usual minimum "
+         "step 0.4 m gain 0.4 %. Where it matters take a lamp or a larger emitter."},
+        {"emitter-fireflies",
+         rare,
+         "side of the emitter, m",
+         {0.4, 0.2, 0.1, 0.05},
+         percentile,
+         [](Stage& s, const Point& p) { return size_of(of_panel(s, p)); },
+         at_most(1.0)},
+        {"crack-bias",
+         cracks,
+         "width of the crack, m",
+         {0.2, 0.1, 0.05, 0.02},
+         bias,
+         [](Stage& s, const Point& p) { return of_crack(s, p).bias; },
+         at_most(0.01),
+         false,
+         "With 16 samples single paths are worth up to hundreds of times the mean here, no detail can be told from "
+         "noise, and the picture is the widest filter's, which carries light beside where it falls: see the figures "
+         "below. It goes with the samples: 256 leave 0.0 % at 0.2 m and 4 % at 0.05 m. Take more samples, or "
+         "`reference`."},
+        {"crack-fireflies",
+         cracks,
+         "width of the crack, m",
+         {0.2, 0.1, 0.05, 0.02},
+         percentile,
+         [](Stage& s, const Point& p) { return size_of(of_crack(s, p)); },
+         at_most(1.0)},
+        {"door-ajar",
+         "dark room, door ajar: hard visibility",
+         "samples",
+         {4, 16, 64, 256},
+         "RMSE of indirect light / that of the reference at equal samples",
+         door_error,
+         at_most(1.0)},
+        {"many-samples",
+         "many samples: the error stops falling",
+         "samples",
+         {4, 16, 64, 256, 1024},
+         "RMSE x √samples / that of the reference at 4 samples",
+         plateau,
+         at_most(1.3)},
+        {"ao-radius",
+         "AO radius: near light counted twice or not at all",
+         "AO radius, m",
+         {0.05, 0.1, 0.2, 0.5, 1, 2, 10},
+         "|bias| of indirect light beyond three standard errors, 64 samples",
+         radius_bias,
+         at_most(0.01)},
+        {"samples-bias",
+         "few samples: a ratio of estimates is biased",
+         "samples",
+         {1, 2, 4, 16, 64},
+         bias,
+         sample_bias,
+         at_most(0.01)}};
 }
 
 }  // namespace farfield::stability

@@ -57,7 +57,7 @@ int run(const std::vector<std::string>& only, bool quick, double soak_minutes, c
         std::fflush(stdout);
     }
     if (!folder.empty()) {
-        write_report(outcomes, folder);
+        write_report(outcomes, stage.renderer().statistics().device, folder);
         fmt::print("The report is {}\n", (folder / "README.md").string());
     }
     return failed > 0 ? 1 : 0;

@@ -21,8 +21,8 @@ struct Outcome {
     bool passed() const;
 };
 
-/// Writes README.md, results.csv, sweeps.gp and by gnuplot sweeps.svg and sweeps.png into the folder.
-void write_report(const std::vector<Outcome>& outcomes, const std::filesystem::path& folder);
+/// Writes README.md, results.csv and by gnuplot sweeps.png into the folder. `device`: what OpenGL calls the renderer.
+void write_report(const std::vector<Outcome>& outcomes, const std::string& device, const std::filesystem::path& folder);
 
 /// One line: the worst of each method over the sweep, the bound, the verdict.
 std::string summary(const Outcome& outcome);

@@ -3,6 +3,7 @@
 #include "renderer/metrics.h"
 
 #include <stdexcept>
+#include <utility>
 
 namespace farfield::stability {
 
@@ -49,7 +50,7 @@ Node ball() {
 
 Image Pictures::indirect(Method method) const { return difference(result[static_cast<std::size_t>(method)], direct); }
 
-Stage::Stage(ContextKind kind) : context_(make_headless_context(kind)) {
+Stage::Stage(std::unique_ptr<Context> context) : context_(std::move(context)) {
     context_->make_current();
     renderer_.emplace();
 }

@@ -38,7 +38,7 @@ struct Pictures {
 
 class Stage {
 public:
-    explicit Stage(ContextKind kind = ContextKind::automatic);
+    explicit Stage(std::unique_ptr<Context> context = make_headless_context(ContextKind::automatic));
     ~Stage();
     Stage(const Stage&) = delete;
     Stage& operator=(const Stage&) = delete;
