@@ -120,8 +120,8 @@ double memory() {
     return resident * 4096.0 / 1e6;
 }
 
-/// Random edits, rendered after each, undone now and then: how much the memory grows once the cache of programs is
-/// full.
+/// Random edits, rendered after each, undone now and then: how much the memory grows from the first half to the
+/// second once the cache of programs is full.
 Figures soak(Stage& stage, double minutes) {
     std::mt19937 random(1);
     constexpr std::size_t steps_kept = 200;
@@ -164,8 +164,9 @@ Figures soak(Stage& stage, double minutes) {
             early = memory(), warmed = now();
         }
     }
-    const double most = *std::max_element(late.begin(), late.end());
-    return shared(invalid > 0 ? NAN : std::max(most / early - 1.0, 0.0),
+    // A leak goes on; caches of the driver, which hold what scenes of every size need, come to an end.
+    const double growth = std::max(late[2], late[3]) / std::max(late[0], late[1]) - 1.0;
+    return shared(invalid > 0 ? NAN : std::max(growth, 0.0),
                   fmt::format("{} edits, {} of them refused, {} programs compiled, {} pictures not finite; {:.0f} MB "
                               "when the cache of programs was full, at most {:.0f}, {:.0f}, {:.0f} and {:.0f} MB in "
                               "the quarters of the time after it",
@@ -184,7 +185,7 @@ std::vector<Case> driver_cases(double soak_minutes) {
              "hours of edits: memory",
              "minutes of random edits",
              {soak_minutes},
-             "growth of memory after the first 600 programs",
+             "growth of memory, second half of the time over the first",
              [](Stage& s, const Point& p) { return soak(s, p.value); },
              at_most(0.1)}};
 }
