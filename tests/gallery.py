@@ -74,11 +74,17 @@ def arrange(editor):
 
 
 def history(editor):
-    editor.key("ctrl+h")
+    for action in (lambda: editor.click("tree/instance of bishop"), lambda: editor.key("ctrl+d"),
+                   lambda: editor.drag("gizmo/z", by=-90), lambda: editor.key("ctrl+b"),
+                   lambda: editor.drag("settings/exposure", across=0.55, to=0.6), lambda: editor.click("lights/lamp"),
+                   lambda: editor.key("ctrl+z"), lambda: editor.key("ctrl+h")):
+        action()
+        time.sleep(1.5)
     lit(editor, 8)
 
 
 def files(editor):
+    lit(editor, 8)
     editor.key("ctrl+o")
     editor.place("dialog/path")
     time.sleep(2.0)
@@ -102,9 +108,9 @@ PICTURES = {
     "palette": ("primitives", palette),
     "arrange": ("csg_part", arrange),
     "history": ("chess", history),
-    "files": ("helix", files),
     "lights": ("two_rooms", lights),
     "steps": ("fractals", steps),
+    "files": ("helix", files),  # the last, when there are small pictures of the others
 }
 
 
@@ -120,7 +126,7 @@ def main():
         for name in names:
             scene, pose = PICTURES[name]
             start = time.monotonic()
-            with Editor(display, program, Path(work) / "scenes" / f"{scene}.json", Path(work) / "report.json") as editor:
+            with Editor(display, program, Path(work) / "scenes" / f"{scene}.json", Path(work) / f"{name}.report.json") as editor:
                 editor.wait("a picture", lambda r: r["pictures"] >= 2)
                 windows = display.xdotool("search", "--onlyvisible", "--name", "Farfield").split()
                 display.xdotool("windowfocus", windows[0])
