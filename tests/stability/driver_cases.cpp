@@ -121,7 +121,7 @@ double memory() {
 }
 
 /// Random edits, rendered after each, undone now and then: how much the memory grows from the first half to the
-/// second once the cache of programs is full.
+/// second, when the cache of programs has been filled.
 Figures soak(Stage& stage, double minutes) {
     std::mt19937 random(1);
     constexpr std::size_t steps_kept = 200;
@@ -164,11 +164,11 @@ Figures soak(Stage& stage, double minutes) {
             early = memory(), warmed = now();
         }
     }
-    // A leak goes on; caches of the driver, which hold what scenes of every size need, come to an end.
+    // A leak goes on; caches that fill come to an end.
     const double growth = std::max(late[2], late[3]) / std::max(late[0], late[1]) - 1.0;
     return shared(invalid > 0 ? NAN : std::max(growth, 0.0),
                   fmt::format("{} edits, {} of them refused, {} programs compiled, {} pictures not finite; {:.0f} MB "
-                              "when the cache of programs was full, at most {:.0f}, {:.0f}, {:.0f} and {:.0f} MB in "
+                              "after 600 programs, at most {:.0f}, {:.0f}, {:.0f} and {:.0f} MB in "
                               "the quarters of the time after it",
                               edits, refused, compiled() - first, invalid, early, late[0], late[1], late[2], late[3]));
 }
