@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <regex>
 #include <utility>
@@ -50,6 +51,18 @@ std::string explain(const Scene& scene, const GeneratedScene& generated, const s
 /// What programs are made of.
 std::vector<Scene> local_parts(const Scene& scene, Id tuned) {
     return local_origin(scene.camera) == glm::vec3(0.0f) ? scene_parts(scene) : scene_parts(local_scene(scene, tuned));
+}
+
+/// llvmpipe ends all loops of an invocation once they have come to 65,535 turns together, and with them the rays that
+/// are left. The tracer's own come to 9,000 at most for 16 rays; a ray that evaluates loops 512 times needs an
+/// invocation for itself.
+bool has_loops(std::string_view code) {
+    for (auto at = code.find("for"); at != std::string_view::npos; at = code.find("for", at + 1)) {
+        const auto is_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+        const auto next = code.find_first_not_of(" \t\n", at + 3);
+        if ((at == 0 || !is_name(code[at - 1])) && next != std::string_view::npos && code[next] == '(') return true;
+    }
+    return false;
 }
 
 }  // namespace
@@ -172,7 +185,7 @@ void TracePrograms::compile(const Code& code) {
         throw ShaderError(fmt::format("{} live parameters do not fit into this driver's uniform block of {} bytes",
                                       generated.parameters.size(), largest_block));
     const auto start = std::chrono::steady_clock::now();
-    Entry entry{generated.key, {}, {}};
+    Entry entry{generated.key, has_loops(generated.key) ? 1 : schedule_.rays_each, {}, {}};
     try {
         entry.march = gl::Program("the scene's trace kernel", scene_kernel_source("trace.glsl", generated));
         entry.surface = gl::Program("the scene's surface kernel", scene_kernel_source("surface.glsl", generated));
@@ -202,14 +215,15 @@ void TracePrograms::trace(std::size_t count, bool surfaces, bool counting) const
         const gl::Program& march = part.programs->march;
         part.parameters.bind_uniform(binding::parameters);
         march.set("ray_count", static_cast<unsigned>(count));
-        march.set("rays_each", static_cast<unsigned>(schedule_.rays_each));
+        const std::size_t rays_each = part.programs->rays_each;
+        march.set("rays_each", static_cast<unsigned>(rays_each));
         march.set("pause", schedule_.pause);
         march.set("counting", counting ? 1 : 0);
         march.set("part", index++);
         march.set("any_hit", surfaces ? 0 : 1);
         march.set("scene_low", part.bounds.low);
         march.set("scene_high", part.bounds.high);
-        march.run((count + schedule_.rays_each - 1) / schedule_.rays_each);
+        march.run((count + rays_each - 1) / rays_each);
     }
     if (!surfaces) return;
     index = 0;

@@ -38,6 +38,7 @@ public:
 private:
     struct Entry {
         std::string key;
+        std::size_t rays_each;
         gl::Program march, surface;
     };
     using Cache = std::list<std::shared_ptr<const Entry>>;

@@ -109,7 +109,7 @@ PICTURES = {
     "arrange": ("csg_part", arrange),
     "history": ("chess", history),
     "lights": ("two_rooms", lights),
-    "steps": ("fractals", steps),
+    "steps": ("gyroid", steps),
     "files": ("helix", files),  # the last, when there are small pictures of the others
 }
 

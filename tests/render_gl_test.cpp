@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace farfield {
@@ -111,6 +112,19 @@ TEST_F(Render, ALargeSceneInPartsGivesThePictureOfTheWhole) {
         EXPECT_LE(compare(apart, together).rmse, 6e-3) << name;
         EXPECT_LE(compare(depth, whole_depth).rmse, 0.02) << name;
     }
+}
+
+/// llvmpipe ends loops that have come to many turns, with all rays that an invocation has left.
+TEST_F(Render, NoRayIsLostWhereTheDistanceTakesLoops) {
+    const Scene scene = parse_scene(R"({"farfield": 1,
+        "camera": {"position": [0, 0, 1.2], "target": [0, 0, 0]},
+        "root": {"kind": "union", "children": [
+            {"kind": "plane", "translate": [0, -3, 0]},
+            {"kind": "plane", "translate": [0, 0, -3], "rotate": [90, 0, 0]},
+            {"kind": "mandelbulb", "radius": 1, "power": 15, "iterations": 16}]}})",
+                                    "scene");
+    const Image steps = render(scene, 1, {.size = {256, 128}}, View::steps);
+    EXPECT_EQ(std::count(steps.pixels.begin(), steps.pixels.end(), 0.0f), 0) << "rays that were never marched";
 }
 
 TEST_F(Render, AnEditOfALargeSceneCompilesItsOwnPart) {
