@@ -40,18 +40,10 @@ Descriptor take_lock(const fs::path& file) {
     return same ? std::move(lock) : Descriptor();
 }
 
-template <class Visit>
-void visit_nodes(const Node& node, Visit& visit) {
-    visit(node);
-    for (const Node& child : node.children) visit_nodes(child, visit);
-}
-
 /// In an order that a file keeps, though not the ids.
 std::vector<Id> ordered_ids(const Scene& scene) {
     std::vector<Id> ids;
-    auto visit = [&](const Node& node) { ids.push_back(node.id); };
-    visit_nodes(scene.root, visit);
-    for (const Node& definition : scene.definitions) visit_nodes(definition, visit);
+    visit_all_nodes(scene, [&](const Node& node) { ids.push_back(node.id); });
     return ids;
 }
 

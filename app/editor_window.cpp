@@ -70,9 +70,9 @@ public:
             const bool drawn = pictured || measured || refreshed || redraws > 0 || attentive;
             if (drawn) {
                 last_frame_ = start;
-                render_.give_way(true);
+                if (on_cpu_) render_.give_way(true);
                 frame();
-                render_.give_way(false);
+                if (on_cpu_) render_.give_way(false);
                 times_.push_back(1e3 * (seconds() - start));
                 if (times_.size() > timed_frames) times_.erase(times_.begin());
             }

@@ -417,7 +417,6 @@ void RenderThread::State::write_pictures() {
 }
 
 void RenderThread::State::wait_while_drawing() {
-    if (!renders_on_cpu()) return;
     std::unique_lock lock(mutex);
     // For one frame at most: the next may have begun.
     wake.wait_for(lock, longest_draw, [&, before = drawn] { return stop || !drawing || drawn != before; });

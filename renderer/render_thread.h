@@ -63,8 +63,8 @@ public:
     /// fence.
     RenderedPicture acquire();
 
-    /// Between true and false the caller draws: where the processor renders, no new step begins meanwhile, so that a
-    /// frame of the user interface does not share it.
+    /// Between true and false no new step begins, so that a frame of the user interface that is drawn meanwhile does
+    /// not share the processor, where that renders.
     void give_way(bool drawing);
 
     /// Never waits. A small picture is dropped when another scene comes before it.

@@ -51,7 +51,7 @@ public:
     /// Takes over the scene and options, decides what stays valid and compiles where the structure is new. Throws
     /// ShaderError and goes on with the last good scene. True when accumulated samples were discarded.
     bool update(const Scene& scene, const FrameOptions& options);
-    /// Whether `update` with these would have to compile.
+    /// How many programs `update` with these would have to compile; at least one for a scene that it refuses.
     int missing_programs(const Scene& scene, Tier tier, Id tuned = 0) const {
         return programs_.missing(scene, tier, tuned);
     }

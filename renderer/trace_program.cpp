@@ -20,6 +20,7 @@ constexpr std::size_t cache_size = 512;      // of parts
 constexpr std::size_t remembered_codes = 6;  // of scenes: two of each program that an edit asks for
 constexpr int generated_file = 2;            // its number in #line directives
 
+/// Larger scenes are refused: llvmpipe took 33 s to compile 10,500 nodes.
 constexpr std::uint64_t largest_program = 20000;
 
 void check_size(const Scene& scene) {

@@ -145,23 +145,33 @@ Id apply_one(Scene& scene, const SetLocked& e) {
     return 0;
 }
 
+namespace {
+
+/// Gives the item a fresh id and a free name.
+template <class T>
+Id add_item(Scene& scene, std::vector<T>& items, T item, const char* usual_name) {
+    item.id = scene.new_id();
+    item.name = free_name(names_of(items), item.name.empty() ? usual_name : item.name);
+    items.push_back(std::move(item));
+    return items.back().id;
+}
+
+}  // namespace
+
 Id add_material(Scene& scene, Material material) {
     if (scene.materials.size() >= largest_material_count)
         throw EditError(fmt::format("a scene has at most {} materials", largest_material_count));
     check_name(material.name);
     check_fields(material);
-    material.id = scene.new_id();
-    material.name = free_name(names_of(scene.materials), material.name.empty() ? "material" : material.name);
-    scene.materials.push_back(std::move(material));
-    return scene.materials.back().id;
+    return add_item(scene, scene.materials, std::move(material), "material");
 }
 
 Id apply_one(Scene& scene, const AddMaterial& e) { return add_material(scene, e.material); }
 
 Id apply_one(Scene& scene, const RemoveMaterial& e) {
-    const Material& material = item_for(scene.materials, e.material, "material");
+    const auto place = place_of(scene.materials, e.material, "material");
     if (scene.materials.size() == 1) throw EditError("the last material stays");
-    scene.materials.erase(scene.materials.begin() + (&material - scene.materials.data()));
+    scene.materials.erase(place);
     visit_all_nodes(scene, [&](Node& node) {
         if (node.material == e.material) node.material = 0;
     });
@@ -172,40 +182,29 @@ Id apply_one(Scene& scene, const AddLight& e) {
     check_name(e.light.name);
     check_fields(e.light);
     check_direction(e.light);
-    Light light = e.light;
-    light.id = scene.new_id();
-    light.name = free_name(names_of(scene.lights), light.name.empty() ? "light" : light.name);
-    scene.lights.push_back(std::move(light));
-    return scene.lights.back().id;
+    return add_item(scene, scene.lights, e.light, "light");
 }
 
 Id apply_one(Scene& scene, const RemoveLight& e) {
-    const Light& light = item_for(scene.lights, e.light, "light");
-    scene.lights.erase(scene.lights.begin() + (&light - scene.lights.data()));
+    scene.lights.erase(place_of(scene.lights, e.light, "light"));
     return 0;
 }
 
 Id apply_one(Scene& scene, const AddBookmark& e) {
     check_name(e.bookmark.name);
     check_fields(e.bookmark.camera);
-    Bookmark bookmark = e.bookmark;
-    bookmark.id = scene.new_id();
-    bookmark.name = free_name(names_of(scene.bookmarks), bookmark.name.empty() ? "view" : bookmark.name);
-    scene.bookmarks.push_back(std::move(bookmark));
-    return scene.bookmarks.back().id;
+    return add_item(scene, scene.bookmarks, e.bookmark, "view");
 }
 
 Id apply_one(Scene& scene, const RemoveBookmark& e) {
-    const Bookmark& bookmark = item_for(scene.bookmarks, e.bookmark, "bookmark");
-    scene.bookmarks.erase(scene.bookmarks.begin() + (&bookmark - scene.bookmarks.data()));
+    scene.bookmarks.erase(place_of(scene.bookmarks, e.bookmark, "bookmark"));
     return 0;
 }
 
 Id apply_one(Scene& scene, const MoveBookmark& e) {
-    const Bookmark& bookmark = item_for(scene.bookmarks, e.bookmark, "bookmark");
+    const auto from = place_of(scene.bookmarks, e.bookmark, "bookmark");
     if (e.index < 0 || e.index >= std::ssize(scene.bookmarks))
         throw EditError(fmt::format("there is no place {} among {} bookmarks", e.index, scene.bookmarks.size()));
-    const auto from = scene.bookmarks.begin() + (&bookmark - scene.bookmarks.data());
     const auto to = scene.bookmarks.begin() + e.index;
     if (from < to)
         std::rotate(from, from + 1, to + 1);

@@ -18,24 +18,14 @@ Node& node_for(Scene& scene, Id id);
 Node& parent_for(Scene& scene, Id id);
 
 template <class T>
-T& item_for(std::vector<T>& items, Id id, const char* what) {
+auto place_of(std::vector<T>& items, Id id, const char* what) {
     const auto it = std::find_if(items.begin(), items.end(), [&](const T& item) { return item.id == id; });
     if (it == items.end()) throw EditError(fmt::format("there is no {} {}", what, id));
-    return *it;
+    return it;
 }
-
-/// The node and all below it, itself first.
-template <class N, class Visit>
-void visit_nodes(N& node, Visit visit) {
-    visit(node);
-    for (auto& child : node.children) visit_nodes(child, visit);
-}
-
-/// In the tree and in the definitions.
-template <class S, class Visit>
-void visit_all_nodes(S& scene, Visit visit) {
-    visit_nodes(scene.root, visit);
-    for (auto& definition : scene.definitions) visit_nodes(definition, visit);
+template <class T>
+T& item_for(std::vector<T>& items, Id id, const char* what) {
+    return *place_of(items, id, what);
 }
 
 using NameSet = std::set<std::string>;

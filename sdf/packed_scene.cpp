@@ -8,11 +8,6 @@
 namespace farfield {
 namespace {
 
-Node without_children(const Node& node) {
-    return {node.id,         node.kind, node.name, node.values, node.transform, node.material,
-            node.definition, {},        node.code, node.hidden, node.locked};
-}
-
 bool equal_beside_children(const Node& a, const Node& b) {
     return a.id == b.id && a.kind == b.kind && a.name == b.name && a.values == b.values && a.transform == b.transform &&
            a.material == b.material && a.definition == b.definition && a.code == b.code && a.hidden == b.hidden &&

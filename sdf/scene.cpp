@@ -42,12 +42,6 @@ void add_topmost(const Node& node, const std::set<Id>& wanted, std::vector<Id>& 
     for (const Node& child : node.children) add_topmost(child, wanted, found);
 }
 
-template <class Visit>
-void visit_nodes(const Node& node, Visit visit) {
-    visit(node);
-    for (const Node& child : node.children) visit_nodes(child, visit);
-}
-
 /// Visits each definition once, after those that it uses.
 template <class Visit>
 void visit_definitions(const Scene& scene, Visit visit) {
@@ -203,6 +197,11 @@ const Light* find_light(const Scene& scene, Id id) { return find_by_id(scene.lig
 const Bookmark* find_bookmark(const Scene& scene, Id id) { return find_by_id(scene.bookmarks, id); }
 const Node* find_definition(const Scene& scene, Id id) { return find_by_id(scene.definitions, id); }
 
+Node without_children(const Node& node) {
+    return {node.id,         node.kind, node.name, node.values, node.transform, node.material,
+            node.definition, {},        node.code, node.hidden, node.locked};
+}
+
 std::string display_name(const Node& node) { return node.name.empty() ? info(node.kind).label : node.name; }
 
 std::string display_name(const Scene& scene, const Node& node) {
@@ -272,8 +271,7 @@ std::uint64_t expanded_node_count(const Scene& scene) { return ExpandedCounts(sc
 int count_uses(const Scene& scene, Id definition) {
     int count = 0;
     const auto look = [&](const Node& node) { count += definition != 0 && node.definition == definition; };
-    visit_nodes(scene.root, look);
-    for (const Node& other : scene.definitions) visit_nodes(other, look);
+    visit_all_nodes(scene, look);
     return count;
 }
 

@@ -150,6 +150,20 @@ const Bookmark* find_bookmark(const Scene& scene, Id id);
 /// Null for ids of anything but a definition.
 const Node* find_definition(const Scene& scene, Id id);
 
+/// The node and all below it, itself first.
+template <class N, class Visit>
+void visit_nodes(N& node, const Visit& visit) {
+    visit(node);
+    for (auto& child : node.children) visit_nodes(child, visit);
+}
+/// All in the tree, then those in the definitions.
+template <class S, class Visit>
+void visit_all_nodes(S& scene, const Visit& visit) {
+    visit_nodes(scene.root, visit);
+    for (auto& definition : scene.definitions) visit_nodes(definition, visit);
+}
+Node without_children(const Node& node);
+
 /// What the user calls the node: its name, or the kind's label where it has none.
 std::string display_name(const Node& node);
 /// The same, but an instance without a name says of what: "instance of column".

@@ -1,5 +1,7 @@
 #include "sdf/scene_parts.h"
 
+#include "sdf/codegen.h"
+
 #include <algorithm>
 #include <set>
 #include <unordered_map>
@@ -14,7 +16,6 @@ struct Sizes {
     std::uint64_t least, usual, most;
 };
 constexpr Sizes small_parts{8, 24, 48}, large_parts{32, 96, 192};
-constexpr std::uint64_t few_nodes = 1500;
 
 /// Whether a new part may begin here: decided by the id, so that what is inserted or removed elsewhere changes nothing.
 /// The more nodes the more likely.
@@ -29,7 +30,7 @@ bool is_hard_union(const Node& node) {
 class Partition {
 public:
     explicit Partition(const Scene& scene)
-        : counts_(scene), sizes_(counts_.of(scene.root) > few_nodes ? large_parts : small_parts) {
+        : counts_(scene), sizes_(marches_by_distance(scene) ? large_parts : small_parts) {
         visit(scene.root);
     }
 
@@ -62,14 +63,11 @@ private:
 using Pieces = std::vector<std::pair<std::size_t, Node>>;
 Pieces pieces(const Node& node, const std::unordered_map<Id, std::size_t>& part_of) {
     if (const auto found = part_of.find(node.id); found != part_of.end()) return {{found->second, node}};
-    Node without_children;
-    without_children.id = node.id, without_children.kind = node.kind, without_children.name = node.name;
-    without_children.values = node.values, without_children.transform = node.transform;
-    without_children.material = node.material;
+    const Node shell = without_children(node);
     Pieces all;
     for (const Node& child : node.children)
         for (auto& [part, below] : pieces(child, part_of)) {
-            if (all.empty() || all.back().first != part) all.emplace_back(part, without_children);
+            if (all.empty() || all.back().first != part) all.emplace_back(part, shell);
             all.back().second.children.push_back(std::move(below));
         }
     return all;

@@ -1,7 +1,6 @@
 // What the render thread does when a scene or the driver fails: the last good picture stays, it says why, and goes on
 // with the next change.
 #include "renderer/render_thread.h"
-#include "sdf/edit_steps.h"
 #include "sdf/scene_file.h"
 #include "tests/gl_test.h"
 #include "tests/test_support.h"

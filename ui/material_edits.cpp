@@ -3,25 +3,9 @@
 #include <fmt/format.h>
 
 namespace farfield {
-namespace {
-
-template <class Visit>
-void visit(const Node& node, const Visit& to) {
-    to(node);
-    for (const Node& child : node.children) visit(child, to);
-}
-
-template <class Visit>
-void visit_all(const Scene& scene, const Visit& to) {
-    visit(scene.root, to);
-    for (const Node& definition : scene.definitions) visit(definition, to);
-}
-
-}  // namespace
-
 std::unordered_map<Id, int> material_uses(const Scene& scene) {
     std::unordered_map<Id, int> uses;
-    visit_all(scene, [&](const Node& node) {
+    visit_all_nodes(scene, [&](const Node& node) {
         if (node.material != 0) ++uses[node.material];
     });
     return uses;
@@ -29,7 +13,7 @@ std::unordered_map<Id, int> material_uses(const Scene& scene) {
 
 std::vector<Id> material_users(const Scene& scene, Id material) {
     std::vector<Id> users;
-    visit_all(scene, [&](const Node& node) {
+    visit_all_nodes(scene, [&](const Node& node) {
         if (node.material == material) users.push_back(node.id);
     });
     return users;
