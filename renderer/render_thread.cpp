@@ -30,6 +30,8 @@ constexpr double patience = 2.5;
 constexpr double interactive_milliseconds = 50.0, first_milliseconds = 40.0;
 /// What one step may take, so that an edit is seen soon, and a frame of the user interface as well.
 constexpr double step_milliseconds = 10.0;
+/// Rays of a step at least: with fewer the dispatches take longer than the rays (8 parts: 3 ms).
+constexpr std::size_t least_batch = 1024;
 /// So long at most a step waits until the user interface has drawn a frame.
 constexpr auto longest_draw = std::chrono::milliseconds(50);
 /// A node whose parameters are in more programs than these, as the root's are, gets them when it is moved.
@@ -276,19 +278,19 @@ void RenderThread::State::take_request() {
     request_time = Clock::now();  // to prepare for the next edit before this one shows would be too early
 }
 
-/// All but the last program of a large scene, one after the other; false when a newer scene came meanwhile. Not twice
-/// in a row, unless it takes long: something must be seen.
+/// One kernel after the other; false when a newer scene came meanwhile. Not twice in a row, unless it takes long:
+/// something must be seen.
 bool RenderThread::State::make_programs(Tier tier, Id tuned) {
     const Clock::time_point start = Clock::now();
     bool outdated = false;
     try {
         const int all = renderer->missing_programs(*current.scene, tier, tuned);
-        for (int left = all; left > 1 && !outdated;) {
+        for (int left = all; left > 0 && !outdated;) {
             left = renderer->compile_one(*current.scene, tier, tuned);
             const std::lock_guard lock(mutex);
             to_compile = all, compiled = all - left;
             const bool newer = next && next->scene != current.scene;
-            outdated = stop || (newer && (!abandoned || Clock::now() - start > longest_compile));
+            outdated = left > 0 && (stop || (newer && (!abandoned || Clock::now() - start > longest_compile)));
         }
     } catch (const std::exception&) {
         // update() will meet it as well, and tell.
@@ -307,10 +309,10 @@ void RenderThread::State::update(Tier tier, Id tuned) {
     options.other = current.other;
     options.samples = quick() ? 1 : 0;
     options.measure_bounces = !quick();
+    options.batch = 1 << 12;
     if (milliseconds_per_pixel_sample > 0.0)
-        options.batch = static_cast<std::size_t>(step_milliseconds / milliseconds_per_pixel_sample) / 64 * 64;
-    else
-        options.batch = 1 << 12;
+        options.batch = std::max(static_cast<std::size_t>(step_milliseconds / milliseconds_per_pixel_sample) / 64 * 64,
+                                 least_batch);
     options.tier = tier;
     options.tuned = tuned;
     std::string problem;
@@ -336,8 +338,7 @@ void RenderThread::State::update(Tier tier, Id tuned) {
 }
 
 /// When the hand rests: first the program with literals for the picture, then those that the next edit will need. One
-/// part of a large scene after the other, so that an edit does not have to wait for all of them. True when it did
-/// something.
+/// kernel after the other, so that an edit does not have to wait for all of them. True when it did something.
 bool RenderThread::State::compile_in_background() {
     if (current.interacting || gave_up || prepared || Clock::now() - request_time < rest) return false;
     const Scene& scene = *current.scene;

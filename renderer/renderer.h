@@ -51,7 +51,7 @@ public:
     /// Takes over the scene and options, decides what stays valid and compiles where the structure is new. Throws
     /// ShaderError and goes on with the last good scene. True when accumulated samples were discarded.
     bool update(const Scene& scene, const FrameOptions& options);
-    /// How many programs `update` with these would have to compile; at least one for a scene that it refuses.
+    /// How many parts `update` with these would have to compile; at least one for a scene that it refuses.
     int missing_programs(const Scene& scene, Tier tier, Id tuned = 0) const {
         return programs_.missing(scene, tier, tuned);
     }
@@ -59,8 +59,8 @@ public:
         return missing_programs(scene, tier, tuned) > 0;
     }
 
-    /// Compiles one of the programs that `update` would have to compile, and changes nothing else; how many are missing
-    /// still. Throws ShaderError.
+    /// Compiles one kernel of those that `update` would have to compile, and changes nothing else; how many parts are
+    /// not complete yet. Throws ShaderError.
     int compile_one(const Scene& scene, Tier tier, Id tuned = 0);
 
     /// Whether `update` with these would keep the accumulated samples, but for a change of size.

@@ -149,8 +149,13 @@ int TracePrograms::compile_one(const Scene& scene, Tier tier, Id tuned) {
     const auto is_there = [&](const auto& code) { return find(code->generated.key) != cache_.end(); };
     std::erase_if(missing, is_there);
     if (missing.empty()) return 0;
-    compile_milliseconds_ = 0.0;
-    compile(*missing.front());
+    const Code& first = *missing.front();
+    if (!begun_ || begun_->key != first.generated.key) {
+        compile_milliseconds_ = 0.0;
+        compile_march(first);
+    } else {
+        compile_surface(first);
+    }
     std::erase_if(missing, is_there);  // others may have the same code
     return static_cast<int>(missing.size());
 }
@@ -163,8 +168,10 @@ void TracePrograms::select(const Scene& scene, Tier tier, Id tuned) {
         const GeneratedScene& generated = code->generated;
         const auto found = find(generated.key);
         if (found == cache_.end()) {
-            if (!std::exchange(compiled, true)) compile_milliseconds_ = 0.0;
-            compile(*code);
+            const bool begun = begun_ && begun_->key == generated.key;
+            if (!std::exchange(compiled, true) && !begun) compile_milliseconds_ = 0.0;
+            if (!begun) compile_march(*code);
+            compile_surface(*code);
         } else {
             cache_.splice(cache_.begin(), cache_, found);
         }
@@ -178,36 +185,44 @@ void TracePrograms::select(const Scene& scene, Tier tier, Id tuned) {
     current_ = std::move(parts);
 }
 
-void TracePrograms::compile(const Code& code) {
+void TracePrograms::compile_march(const Code& code) {
     const GeneratedScene& generated = code.generated;
     GLint largest_block = 0;
     glGetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &largest_block);
     if (generated.parameters.size() * sizeof(float) > static_cast<std::size_t>(largest_block))
         throw ShaderError(fmt::format("{} live parameters do not fit into this driver's uniform block of {} bytes",
                                       generated.parameters.size(), largest_block));
+    gl::Program march = compiled(code, "the scene's trace kernel", "trace.glsl");
+    begun_ = Entry{generated.key, has_loops(generated.key) ? 1 : schedule_.rays_each, std::move(march), {}};
+}
+
+/// Of the part that has been begun.
+void TracePrograms::compile_surface(const Code& code) {
+    begun_->surface = compiled(code, "the scene's surface kernel", "surface.glsl");
+    ++compiles_;
+    structures_.insert(std::hash<std::string>()(generate(code.part, Tier::live).key));
+    cache_.push_front(std::make_shared<const Entry>(*std::exchange(begun_, {})));
+    if (cache_.size() > cache_size) cache_.pop_back();
+}
+
+gl::Program TracePrograms::compiled(const Code& code, const char* name, const char* file) {
     const auto start = std::chrono::steady_clock::now();
-    Entry entry{generated.key, has_loops(generated.key) ? 1 : schedule_.rays_each, {}, {}};
+    std::optional<gl::Program> program;
     try {
-        entry.march = gl::Program("the scene's trace kernel", scene_kernel_source("trace.glsl", generated));
-        entry.surface = gl::Program("the scene's surface kernel", scene_kernel_source("surface.glsl", generated));
+        program.emplace(name, scene_kernel_source(file, code.generated));
     } catch (const ShaderError& error) {
-        throw ShaderError(explain(code.part, generated, error.what()));
+        throw ShaderError(explain(code.part, code.generated, error.what()));
     }
     // Drivers compile compute shaders at their first dispatch: have that now, with no ray to trace.
     gl::Buffer parameters("parameters");
-    parameters.upload(std::span<const float>(generated.parameters));
+    parameters.upload(std::span<const float>(code.generated.parameters));
     parameters.bind_uniform(binding::parameters);
-    for (const gl::Program* program : {&entry.march, &entry.surface}) {
-        program->set("ray_count", 0u);
-        program->run(std::size_t{1});
-    }
+    program->set("ray_count", 0u);
+    program->run(std::size_t{1});
     glFinish();
     compile_milliseconds_ +=
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
-    ++compiles_;
-    structures_.insert(std::hash<std::string>()(generate(code.part, Tier::live).key));
-    cache_.push_front(std::make_shared<const Entry>(std::move(entry)));
-    if (cache_.size() > cache_size) cache_.pop_back();
+    return std::move(*program);
 }
 
 void TracePrograms::trace(std::size_t count, bool surfaces, bool counting) const {

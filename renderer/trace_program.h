@@ -8,6 +8,7 @@
 
 #include <list>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -18,13 +19,13 @@ class TracePrograms {
 public:
     TracePrograms();
 
-    /// Makes the programs of `scene` (see generate) current for `trace`, whose rays count from local_origin of its camera; compiles those that the cache has not. When
-    /// that fails it throws ShaderError whose message names the node, and the last good programs stay.
+    /// Makes the programs of `scene` (see generate) current for `trace`, whose rays count from local_origin of its
+    /// camera; compiles those that the cache has not. When that fails it throws ShaderError whose message names the
+    /// node, and the last good programs stay.
     void select(const Scene& scene, Tier tier, Id tuned = 0);
-    /// How many programs select would have to compile, at least one for a scene that is refused.
+    /// How many parts select would have to compile, at least one for a scene that is refused.
     int missing(const Scene& scene, Tier tier, Id tuned = 0) const;
-    /// Compiles one of those that select would have to compile, if any, and tells how many are missing still. Throws
-    /// like it.
+    /// Compiles one kernel of those parts, if any, and tells how many parts are not complete yet. Throws like select.
     int compile_one(const Scene& scene, Tier tier, Id tuned = 0);
 
     /// Ray buffer to hit buffer, `count` rays from the first. `surfaces`: normal and material too; without, any hit
@@ -59,7 +60,9 @@ private:
     using Codes = std::vector<std::shared_ptr<const Code>>;
     Codes codes(const Scene& scene, Tier tier, Id tuned) const;
     Cache::const_iterator find(const std::string& key) const;
-    void compile(const Code& code);
+    void compile_march(const Code& code);
+    void compile_surface(const Code& code);
+    gl::Program compiled(const Code& code, const char* name, const char* file);
 
     /// See trace.glsl.
     struct Schedule {
@@ -70,6 +73,7 @@ private:
 
     mutable std::vector<Codes> codes_;  ///< of the last calls
     Cache cache_;                       ///< most recently used first
+    std::optional<Entry> begun_;        ///< its surface kernel is to follow
     std::vector<Part> current_;
     std::set<std::size_t> structures_;  ///< hashes of the live code of every scene that was compiled
     int compiles_ = 0;

@@ -67,7 +67,10 @@ void main() {
                 marching = t < reach;
                 if (part == 0u) {
                     if (counting == 1 && ray.reach > 0.0) atomicAdd(counted_rays, 1u);
-                    if (!marching) hits[i] = Hit(-1.0, 0u, 0u, 0u);
+                    if (!marching) {
+                        hits[i].distance = -1.0;
+                        hits[i].steps = 0u;
+                    }
                 }
                 if (!marching) i += 64u;
             }
@@ -100,11 +103,12 @@ void main() {
             bool exhausted = steps >= most_steps && !found && t + free < reach;
             found = found || (exhausted && radius < near_enough * t);
             if (found) t += max(radius, 0.0);
-            Hit hit = part > 0u ? hits[i] : Hit(-1.0, 0u, 0u, 0u);
-            bool nearest = found && t < (hit.distance < 0.0 ? ray.reach : hit.distance);
-            uint all_steps = min((hit.steps & steps_mask) + uint(steps), steps_mask);
-            hits[i] = Hit(nearest ? t : hit.distance, 0u, 0u,
-                          all_steps | (nearest ? part << part_shift : hit.steps & ~steps_mask));
+            float met = part > 0u ? hits[i].distance : -1.0;
+            uint others = part > 0u ? hits[i].steps : 0u;
+            bool nearest = found && t < (met < 0.0 ? ray.reach : met);
+            hits[i].distance = nearest ? t : met;
+            hits[i].steps = min((others & steps_mask) + uint(steps), steps_mask) |
+                            (nearest ? part << part_shift : others & ~steps_mask);
             if (counting == 1) {
                 atomicAdd(counted_steps, uint(steps));
                 if (exhausted) atomicAdd(exhausted_rays, 1u);
