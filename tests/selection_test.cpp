@@ -1,5 +1,6 @@
 // What is selected, and what the editor does with it, without a window.
 #include "app/selection_history.h"
+#include "sdf/evaluate.h"
 #include "sdf/history.h"
 #include "sdf/scene_file.h"
 #include "tests/test_support.h"
@@ -152,6 +153,34 @@ TEST(TreeEdits, GroupsAndDissolvesWithTheSelection) {
     EXPECT_EQ(selected_nodes(selection), (Ids{s.a, s.d}));
     selection = s.carry_out(wrap_selection(s.scene, selection, NodeKind::twist), selection);
     EXPECT_EQ(find_node(s.scene, selection.primary.id)->kind, NodeKind::twist);
+}
+
+TEST(TreeEdits, AGroupKeepsThePictureOfWhateverItIsIn) {
+    for (const KindInfo& kind : node_kinds()) {
+        if (kind.role != Role::combine) continue;
+        for (const bool blended : {false, true}) {
+            Small s;
+            const Id all = s.add(kind.kind, "all", s.root);
+            Ids shapes;
+            for (const Id id : {s.a, s.d, s.e}) shapes.push_back(id);
+            apply_all(s.scene, move_nodes(s.scene, shapes, all, -1));
+            if (blended && !kind.parameters.empty())
+                apply(s.scene, SetValue{Small::node(all), kind.parameters[0].key, glm::vec3(0.2f)});
+            apply(s.scene, SetValue{Small::node(s.d), "translate", glm::vec3(0.5f, 0.2f, 0.0f)});
+            for (const Ids& grouped : {Ids{s.a, s.d}, Ids{s.d, s.e}}) {
+                // Blends, pipes and the like are made one after the other.
+                const bool hard = !blended && (kind.when_zero || kind.kind == NodeKind::xor_);
+                if (!hard && grouped[0] != s.a) continue;
+                Scene after = s.scene;
+                apply_all(after, group_selection(after, select(grouped)));
+                ASSERT_EQ(find_node(after, all)->children.size(), 2u) << kind.key;
+                const FieldEvaluator was(s.scene), is(after);
+                for (float x = -2.0f; x <= 2.0f; x += 0.1f)
+                    for (const glm::vec3 p : {glm::vec3(x, 0.3f, 0.1f), glm::vec3(0.2f, x, 0.3f)})
+                        ASSERT_NEAR(was.distance(p), is.distance(p), 1e-5f) << kind.key << " " << x;
+            }
+        }
+    }
 }
 
 TEST(TreeEdits, HidesWhatShowsAndShowsWhatIsHidden) {

@@ -221,7 +221,23 @@ Edits move_nodes(const Scene& scene, const std::vector<Id>& nodes, Id parent, in
 Edits group_selection(const Scene& scene, const Selection& selection) {
     std::vector<Id> nodes = movable(scene, selection);
     if (nodes.empty()) return {};
-    return {WrapNodes{std::move(nodes), NodeKind::union_, "group"}};
+    const Node& parent = *find_parent(scene, nodes[0]);
+    const KindInfo& kind = info(parent.kind);
+    const auto is_selected = [&](const Node& child) { return std::count(nodes.begin(), nodes.end(), child.id) > 0; };
+    const bool all_here = std::count_if(parent.children.begin(), parent.children.end(), is_selected) ==
+                          static_cast<std::ptrdiff_t>(nodes.size());
+    // What is taken away from the first child is a union.
+    const bool alike =
+        kind.role == Role::combine && all_here && (kind.gather != Gather::first || is_selected(parent.children[0]));
+    Plan plan(scene);
+    const Id first = nodes[0];
+    plan.add(WrapNodes{std::move(nodes), alike ? parent.kind : NodeKind::union_, "group"});
+    if (!alike || plan.refused()) return plan.take();
+    const Id group = find_parent(plan.scene(), first)->id;
+    for (std::size_t i = 0; i < parent.values.size(); ++i)
+        if (parent.values[i] != kind.parameters[i].initial)
+            plan.add(SetValue{{ObjectType::node, group}, kind.parameters[i].key, parent.values[i]});
+    return plan.take();
 }
 
 Edits wrap_selection(const Scene& scene, const Selection& selection, NodeKind kind) {

@@ -33,8 +33,10 @@ Edits shift_selection(const Scene& scene, const Selection& selection, int by);
 /// Moves nodes before child `index` of `parent`, -1 for its end, in their order. They stay where they are in space.
 Edits move_nodes(const Scene& scene, const std::vector<Id>& nodes, Id parent, int index);
 
-/// Puts the selected nodes into a new union, or into another operation.
+/// Puts the selected nodes into a group that keeps the picture: siblings combine as they do in their parent, those that
+/// are only taken away and all others make a union. But for blends, pipes and the like of nodes that are not the first.
 Edits group_selection(const Scene& scene, const Selection& selection);
+/// Puts them into a new operation.
 Edits wrap_selection(const Scene& scene, const Selection& selection, NodeKind kind);
 /// Takes out what is in the selected groups.
 Edits dissolve_selection(const Scene& scene, const Selection& selection);
