@@ -179,6 +179,18 @@ Figures coaxial_disc(Stage& stage, const Point& p) {
     return irradiance_error(stage, scene, r * r / (r * r + h * h));
 }
 
+/// A sphere stays what it is however its space is twisted, but its field becomes flat: rays that leave it must not meet
+/// it again. Under an even sky and a lamp.
+Figures twisted_sphere(Stage& stage, const Point& p) {
+    Built scene = grey();
+    const Id twist = scene.add(shape(NodeKind::twist, {number(p.value)}));
+    scene.add(sphere(0.5f), {}, twist);
+    scene.set_sky(1.0f);
+    scene.add_point_light({1.5f, 0.0f, 0.0f}, glm::vec3(static_cast<float>(pi)));
+    look_at_patch(scene, {0.5f, 0.0f, 0.0f}, {1.5f, 0.1f, 0.1f});
+    return error(stage, scene, albedo * 2.0, false);
+}
+
 }  // namespace
 
 std::vector<Case> closed_form_cases() {
@@ -237,7 +249,14 @@ std::vector<Case> closed_form_cases() {
          {1, 2, 4, 8},
          error_of,
          diffuse_sphere,
-         at_most(0.02)}};
+         at_most(0.02)},
+        {"flat-field",
+         "flat field: self-intersection of rays that leave a surface",
+         "twist rate of a sphere, °/m",
+         {0, 100, 1000, 10000, 36000},
+         error_of,
+         twisted_sphere,
+         at_most(0.01)}};
     return cases;
 }
 

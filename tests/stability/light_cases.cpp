@@ -344,9 +344,8 @@ std::vector<Case> light_cases() {
          at_most(0.01),
          false,
          "The reference gains light, and what is measured against it gains as much: rays hit as far off as the "
-         "tracer's "
-         "tolerance, by which emitters are larger than they are; see the figures below. With 1/16 of the usual minimum "
-         "step 0.4 m gain 0.4 %. Where it matters take a lamp or a larger emitter."},
+         "tracer's tolerance, 1e-4 of their length, by which emitters are larger than they are; see the figures below. "
+         "With 2e-5 0.4 m gain 0.4 %. Where it matters take a lamp or a larger emitter."},
         {"emitter-fireflies",
          rare,
          "side of the emitter, m",
