@@ -27,6 +27,7 @@ bool adds(const KindInfo& kind) { return kind.when_zero && kind.gather == Gather
 MarchWriter::MarchWriter(const FieldTree& tree, const CodeNames& names, ParameterBlock& block, bool by_distance)
     : CodeWriter(tree, names, block, false), by_distance_(by_distance) {
     writes_copies_ = false;
+    for (const FieldNode& n : tree.definitions) definitions_live_.push_back(is_live_below(n));
 }
 
 CodeLines MarchWriter::write() {
@@ -66,7 +67,7 @@ void MarchWriter::take_functions(CodeLines& out) {
 
 bool MarchWriter::is_live_below(const FieldNode& n) const {
     return block_.is_live(n) || block_.is_derived_live(n) ||
-           (n.kind->role == Role::instance && is_live_below(tree_.definitions[n.definition])) ||
+           (n.kind->role == Role::instance && definitions_live_[n.definition]) ||
            std::any_of(n.children.begin(), n.children.end(), [&](const FieldNode& c) { return is_live_below(c); });
 }
 

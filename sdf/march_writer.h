@@ -76,6 +76,7 @@ private:
     std::string direction(const FieldNode& n, const std::string& v);
 
     bool by_distance_;
+    std::vector<bool> definitions_live_;  ///< is_live_below
     std::vector<bool> definitions_gain_;
 };
 
