@@ -149,13 +149,8 @@ int TracePrograms::compile_one(const Scene& scene, Tier tier, Id tuned) {
     const auto is_there = [&](const auto& code) { return find(code->generated.key) != cache_.end(); };
     std::erase_if(missing, is_there);
     if (missing.empty()) return 0;
-    const Code& first = *missing.front();
-    if (!begun_ || begun_->key != first.generated.key) {
-        compile_milliseconds_ = 0.0;
-        compile_march(first);
-    } else {
-        compile_surface(first);
-    }
+    if (!is_begun(*missing.front())) compile_milliseconds_ = 0.0;
+    compile_next(*missing.front());
     std::erase_if(missing, is_there);  // others may have the same code
     return static_cast<int>(missing.size());
 }
@@ -168,10 +163,8 @@ void TracePrograms::select(const Scene& scene, Tier tier, Id tuned) {
         const GeneratedScene& generated = code->generated;
         const auto found = find(generated.key);
         if (found == cache_.end()) {
-            const bool begun = begun_ && begun_->key == generated.key;
-            if (!std::exchange(compiled, true) && !begun) compile_milliseconds_ = 0.0;
-            if (!begun) compile_march(*code);
-            compile_surface(*code);
+            if (!std::exchange(compiled, true) && !is_begun(*code)) compile_milliseconds_ = 0.0;
+            while (find(generated.key) == cache_.end()) compile_next(*code);
         } else {
             cache_.splice(cache_.begin(), cache_, found);
         }
@@ -183,6 +176,15 @@ void TracePrograms::select(const Scene& scene, Tier tier, Id tuned) {
                        generated.bounds.high + 0.01f * (1.0f + glm::abs(generated.bounds.high))};
     }
     current_ = std::move(parts);
+}
+
+bool TracePrograms::is_begun(const Code& code) const { return begun_ && begun_->key == code.generated.key; }
+
+void TracePrograms::compile_next(const Code& code) {
+    if (is_begun(code))
+        compile_surface(code);
+    else
+        compile_march(code);
 }
 
 void TracePrograms::compile_march(const Code& code) {

@@ -60,6 +60,9 @@ private:
     using Codes = std::vector<std::shared_ptr<const Code>>;
     Codes codes(const Scene& scene, Tier tier, Id tuned) const;
     Cache::const_iterator find(const std::string& key) const;
+    /// Its march kernel, then its surface kernel, which completes it.
+    void compile_next(const Code& code);
+    bool is_begun(const Code& code) const;
     void compile_march(const Code& code);
     void compile_surface(const Code& code);
     gl::Program compiled(const Code& code, const char* name, const char* file);
