@@ -300,10 +300,10 @@ void WaveletPass::shrink(const Targets& targets, std::size_t level) const {
     shrink_.run(targets.size);
 }
 
-void SynthesisPass::run(const Targets& targets, const gl::Texture& filtered, const gl::Texture& estimate, int view,
+void SynthesisPass::run(const Targets& targets, const gl::Texture& filtered, const gl::Texture* estimate, int view,
                         Method method, int frames) const {
     filtered.bind(0);
-    if (estimate) estimate.bind(1);
+    if (estimate) estimate->bind(1);
     targets.view.bind_image(0, GL_WRITE_ONLY);
     program_.set("view", view);
     program_.set("method", static_cast<int>(method));

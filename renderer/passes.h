@@ -135,7 +135,7 @@ private:
 class SynthesisPass {
 public:
     /// `estimate` is used by Method::farfield only.
-    void run(const Targets& targets, const gl::Texture& filtered, const gl::Texture& estimate, int view, Method method,
+    void run(const Targets& targets, const gl::Texture& filtered, const gl::Texture* estimate, int view, Method method,
              int frames) const;
 
 private:

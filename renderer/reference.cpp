@@ -100,7 +100,8 @@ std::string shader_hash(bool all) {
 std::string reference_key(const Scene& scene, glm::ivec2 size) {
     static const std::string shaders = shader_hash(false);
     const int numbers[] = {version, frame_samples, size.x, size.y};
-    std::string bytes = transport_bytes(with_all_bounces(scene), FrameOptions{}) + shaders;
+    const Transport all = transport(with_all_bounces(scene), FrameOptions{});
+    std::string bytes = all.light + all.camera + shaders;
     bytes.append(reinterpret_cast<const char*>(numbers), sizeof numbers);
     return sha256(bytes);
 }

@@ -33,7 +33,7 @@ struct Reference {
     double noise_relative_mse() const;
 };
 
-/// SHA-256 of all that a reference depends on, 64 hexadecimal digits: `transport_bytes` (of seed 0), size, and the code
+/// SHA-256 of all that a reference depends on, 64 hexadecimal digits: its `transport` (of seed 0), size, and the code
 /// of the shaders that take part.
 std::string reference_key(const Scene& scene, glm::ivec2 size);
 

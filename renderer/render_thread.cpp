@@ -309,6 +309,7 @@ void RenderThread::State::update(Tier tier, Id tuned) {
     options.other = current.other;
     options.samples = quick() ? 1 : 0;
     options.measure_bounces = !quick();
+    options.reprojection = true;
     options.batch = 1 << 12;
     if (milliseconds_per_pixel_sample > 0.0)
         options.batch = std::max(static_cast<std::size_t>(step_milliseconds / milliseconds_per_pixel_sample) / 64 * 64,

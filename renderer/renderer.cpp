@@ -34,26 +34,24 @@ glm::vec2 pixel_offset(int n) {
 constexpr float bounce_threshold = 0.005f;
 constexpr std::size_t measured_paths = 4096;
 
-/// Camera, sky and size as the kernels take them.
-FrameRecord frame_record(const Scene& scene, const FrameOptions& options, int frame) {
-    const Camera& camera = scene.camera;
+void set_camera(FrameRecord& record, const Camera& camera, glm::ivec2 size) {
     const CameraBasis basis(camera);
-    const float aspect = static_cast<float>(options.size.x) / static_cast<float>(options.size.y);
-    const glm::vec2 offset = pixel_offset(frame);
-    FrameRecord record{};
     record.camera_position = camera.position - local_origin(camera);
-    record.pixel_angle = 2.0f * basis.half_height / static_cast<float>(options.size.y);
-    record.camera_right = basis.right * (basis.half_height * aspect);
-    record.jitter_x = offset.x;
+    record.pixel_angle = 2.0f * basis.half_height / static_cast<float>(size.y);
+    record.camera_right = basis.right * (basis.half_height * static_cast<float>(size.x) / static_cast<float>(size.y));
     record.camera_up = basis.up * basis.half_height;
-    record.jitter_y = offset.y;
     record.camera_forward = basis.forward;
+    record.image_size = size;
+}
+
+/// All but the camera.
+FrameRecord frame_record(const Scene& scene, const FrameOptions& options) {
+    FrameRecord record{};
     record.seed = options.seed;
     record.sky_horizon = scene.sky.horizon;
     record.light_count = static_cast<int>(scene.lights.size());
     record.sky_zenith = scene.sky.zenith;
     record.minimum_step = std::log2(options.minimum_step);
-    record.image_size = options.size;
     record.step_limit = options.step_limit;
     return record;
 }
@@ -78,18 +76,19 @@ std::vector<LightRecord> light_records(const Scene& scene) {
 
 }  // namespace
 
-std::string transport_bytes(const Scene& scene, FrameOptions options) {
-    options.size = {1, 1};
+Transport transport(const Scene& scene, const FrameOptions& options) {
     const GeneratedScene generated = generate(scene, Tier::live);
-    std::string bytes = generated.key;
-    for (const float value : generated.parameters) append_bytes(bytes, value);
-    for (const MaterialRecord& record : material_records(scene)) append_bytes(bytes, record);
-    for (const LightRecord& record : light_records(scene)) append_bytes(bytes, record);
-    append_bytes(bytes, frame_record(scene, options, 0));
-    append_bytes(bytes, scene.settings.bounces);
-    // The records count from there.
-    if (const glm::vec3 origin = local_origin(scene.camera); origin != glm::vec3(0.0f)) append_bytes(bytes, origin);
-    return bytes;
+    Transport result{generated.key, {}};
+    for (const float value : generated.parameters) append_bytes(result.light, value);
+    for (const MaterialRecord& record : material_records(scene)) append_bytes(result.light, record);
+    for (const LightRecord& record : light_records(scene)) append_bytes(result.light, record);
+    append_bytes(result.light, frame_record(scene, options));
+    append_bytes(result.light, scene.settings.bounces);
+    append_bytes(result.light, local_origin(scene.camera));  // what the records count from
+    FrameRecord camera{};
+    set_camera(camera, scene.camera, {1, 1});
+    append_bytes(result.camera, camera);
+    return result;
 }
 
 Renderer::Renderer() {
@@ -98,7 +97,7 @@ Renderer::Renderer() {
 }
 
 bool Renderer::keeps_samples(const Scene& scene, const FrameOptions& options) const {
-    return transport_bytes(scene, options) == transport_;
+    return transport(scene, options) == transport_;
 }
 
 int Renderer::compile_one(const Scene& scene, Tier tier, Id tuned) {
@@ -118,12 +117,18 @@ bool Renderer::update(const Scene& scene, const FrameOptions& options) {
     note_compiles();
     statistics_.specialised = options.tier == Tier::specialised && options.tuned == 0;
 
-    std::string transport = transport_bytes(scene, options);
-    const bool changed = transport != transport_ || !targets_ || targets_->size != options.size;
+    Transport now = transport(scene, options);
+    const bool changed = now != transport_ || !targets_ || targets_->size != options.size;
     const bool new_occlusion = scene.settings.ao_radius != scene_.settings.ao_radius;
+    const bool has_past = options.reprojection && !options.other && now.light == transport_.light;
+    if (!has_past) past_.drop();
+    if (changed) {
+        if (has_past) keep_past();
+        moves_ = has_past ? moves_ + 1 : 0;
+    }
     scene_ = scene;
     options_ = options;
-    transport_ = std::move(transport);
+    transport_ = std::move(now);
     if (!targets_ || targets_->size != options.size) {
         targets_.reset();  // frees before it takes
         targets_.emplace(options.size);
@@ -133,7 +138,7 @@ bool Renderer::update(const Scene& scene, const FrameOptions& options) {
         const std::vector<LightRecord> lights = light_records(scene);
         materials_.upload(std::span(materials));
         lights_.upload(std::span(lights));
-        discard();
+        restart();
     } else if (new_occlusion) {
         targets_->clear_ao_radius();
         occlusion_samples_ = 0;
@@ -141,8 +146,23 @@ bool Renderer::update(const Scene& scene, const FrameOptions& options) {
     return changed;
 }
 
+/// Before the camera or the size changes: the picture as it is, if it has been filtered; else the one before stays.
+void Renderer::keep_past() {
+    if (!estimate_) return;
+    FrameRecord camera{};
+    set_camera(camera, scene_.camera, options_.size);
+    past_.keep(*estimate_, targets_->guide, estimate_unit_, camera);
+}
+
 void Renderer::discard() {
+    past_.drop();
+    moves_ = 0;
+    restart();
+}
+
+void Renderer::restart() {
     targets_->clear();
+    estimate_ = nullptr;
     in_frame_ = false;
     completed_cameras_ = 0;
     far_samples_ = 0;
@@ -170,7 +190,12 @@ void Renderer::begin_frame() {
     frame_samples_ = options_.samples > 0 ? options_.samples : scene_.settings.samples;
     frame_start_ = std::chrono::steady_clock::now();
     timers_.begin_frame();
-    const FrameRecord record = frame_record(scene_, options_, completed_cameras_);
+    FrameRecord record = frame_record(scene_, options_);
+    set_camera(record, scene_.camera, options_.size);
+    const glm::vec2 offset = pixel_offset(completed_cameras_);
+    record.jitter_x = offset.x;
+    record.jitter_y = offset.y;
+    record.seed += moves_;
     frame_.upload(&record, sizeof record);
     const CounterRecord zero;
     counters_.upload(&zero, sizeof zero);
@@ -267,13 +292,22 @@ void Renderer::render_frame() {
 const gl::Texture* Renderer::filter(const Look& look, const std::function<bool()>& stop) {
     frame_.bind_uniform(binding::frame);
     targets_->bind();
+    estimate_ = nullptr;
     if (look.method != Method::farfield) return &filter_pass_.run(*targets_, look.blur_levels);
-    return wavelet_pass_.run(*targets_, look.blur_levels, stop) ? &targets_->levels.back().far : nullptr;
+    if (!wavelet_pass_.run(*targets_, look.blur_levels, stop)) return nullptr;
+    estimate_ = &targets_->estimates[0];
+    estimate_unit_ = static_cast<float>(far_samples_);
+    const int most = Reprojection::pictures * frame_samples_ - static_cast<int>(far_samples_);
+    if (most <= 0) past_.drop();
+    if (past_) {
+        estimate_ = &past_.add(*targets_, estimate_unit_, static_cast<float>(most));
+        estimate_unit_ = 1.0f;
+    }
+    return &targets_->levels.back().far;
 }
 
 void Renderer::synthesise(const Look& look, const gl::Texture& filtered) {
-    synthesis_pass_.run(*targets_, filtered, targets_->estimates[0], static_cast<int>(look.view), look.method,
-                        completed_cameras_);
+    synthesis_pass_.run(*targets_, filtered, estimate_, static_cast<int>(look.view), look.method, completed_cameras_);
 }
 
 bool Renderer::display(const gl::Texture& output, const gl::Texture& other, const std::function<bool()>& stop) {

@@ -8,6 +8,7 @@
 
 #include "renderer/image.h"
 #include "renderer/passes.h"
+#include "renderer/reprojection.h"
 #include "renderer/statistics.h"
 #include "renderer/timers.h"
 #include "renderer/views.h"
@@ -34,14 +35,19 @@ struct FrameOptions {
     bool counting = false;          ///< count rays and evaluations; costs a little
     float minimum_step = 1.0f;      ///< of the tracer, times the usual: how far off hits may be
     int step_limit = 0;             ///< evaluations of the distance for each ray; 0: the tracer's own limit
+    bool reprojection = false;      ///< keep the indirect light where the camera moves; see reprojection.h
     bool occlusion = false;         ///< trace ambient occlusion even where neither method nor view shows it
     std::size_t batch =
         Batch::capacity;  ///< pixels for each step, at most Batch::capacity; changes no bit of the picture
 };
 
-/// Everything that accumulated samples depend on, as bytes to compare: geometry (the live code and its parameters),
-/// materials, lights, sky, camera, seed, bounces. The size of the picture stands apart.
-std::string transport_bytes(const Scene& scene, FrameOptions options);
+/// Everything that accumulated samples depend on, as bytes to compare. The size of the picture stands apart.
+struct Transport {
+    std::string light;   ///< geometry (the live code and its parameters), materials, lights, sky, seed, bounces
+    std::string camera;  ///< relative to local_origin, which the light's records are relative to as well
+    friend bool operator==(const Transport&, const Transport&) = default;
+};
+Transport transport(const Scene& scene, const FrameOptions& options);
 
 class Renderer {
 public:
@@ -69,7 +75,7 @@ public:
     /// Whether an update has succeeded so far; nothing below may be called before.
     bool ready() const { return targets_.has_value(); }
 
-    /// Drops all accumulated samples; the next frame is the first again.
+    /// Drops all accumulated samples and what is left of the past; the next frame is the first again.
     void discard();
 
     /// Nothing was done for so long: that is no time of the current frame.
@@ -92,10 +98,12 @@ public:
 
 private:
     void note_compiles();
+    void restart();
+    void keep_past();
     void begin_frame();
     void finish_frame();
     Look own_look(View view) const { return {view, scene_.settings.method, scene_.settings.blur_levels}; }
-    /// Far light as the look's method averages it; null when `stop` said so.
+    /// Far light as the look's method averages it, and `estimate_`; null when `stop` said so.
     const gl::Texture* filter(const Look& look, const std::function<bool()>& stop = {});
     void synthesise(const Look& look, const gl::Texture& filtered);
     Work next_work() const;
@@ -120,6 +128,7 @@ private:
     WaveletPass wavelet_pass_;
     SynthesisPass synthesis_pass_;
     DisplayPass display_pass_;
+    Reprojection past_;
     Batch batch_;
     gl::Buffer frame_{"frame"}, materials_{"materials"}, lights_{"lights"}, counters_{"counters"};
     std::optional<Targets> targets_;
@@ -127,7 +136,10 @@ private:
 
     Scene scene_;
     FrameOptions options_;
-    std::string transport_;  ///< all that the accumulated samples depend on, as bytes; see update
+    Transport transport_;
+    gl::Texture* estimate_ = nullptr;  ///< of farfield, as filtered last since the last discard
+    float estimate_unit_ = 0.0f;       ///< samples that a w of 1 in it stands for
+    std::uint32_t moves_ = 0;          ///< of the camera since anything else changed: each picture takes other samples
 
     // The frame being rendered: batch after batch the camera and direct light, then sample after sample the far light.
     bool in_frame_ = false;

@@ -4,6 +4,7 @@
 #include "tests/stability/case.h"
 
 #include <fmt/format.h>
+#include <glm/trigonometric.hpp>
 
 #include <cmath>
 
@@ -29,19 +30,25 @@ Built room() {
     return scene;
 }
 
+ObjectRef block(const Scene& scene) { return {ObjectType::node, scene.root.children[1].id}; }
+
 struct Change {
     const char* name;
     void (*make)(Scene& scene);
     Tier tier = Tier::specialised;
     bool within_frame = false;  ///< it comes while a frame is being rendered
+    bool reprojects = false;    ///< the past counts for seven pictures
 };
 
-ObjectRef block(const Scene& scene) { return {ObjectType::node, scene.root.children[1].id}; }
-
 const Change changes[] = {
-    {"camera moves", [](Scene& s) { s.camera.position.x += 0.05f; }},
-    {"camera moves within a frame", [](Scene& s) { s.camera.position.x += 0.05f; }, Tier::specialised, true},
-    {"camera turns a hair", [](Scene& s) { s.camera.target.x += 1e-4f; }},
+    {"camera moves", [](Scene& s) { s.camera.position.x += 0.05f; }, Tier::specialised, false, true},
+    {"camera moves within a frame", [](Scene& s) { s.camera.position.x += 0.05f; }, Tier::specialised, true, true},
+    {"camera turns a hair", [](Scene& s) { s.camera.target.x += 1e-4f; }, Tier::specialised, false, true},
+    {"camera and a node move",
+     [](Scene& s) {
+         s.camera.position.x += 0.05f;
+         apply(s, SetValue{block(s), "translate", {0.5f, -0.5f, -0.3f}});
+     }},
     {"a node moves",
      [](Scene& s) {
          apply(s, SetValue{block(s), "translate", {0.5f, -0.5f, -0.3f}});
@@ -73,24 +80,27 @@ std::vector<Point> change_points() {
     return points;
 }
 
-/// Values of the picture after the change that differ from those of a renderer that has never seen anything else.
+/// Values of the picture after the change that differ from those of a renderer that has never seen anything else; of
+/// one that reprojects once the past counts no more.
 Figures survivors(Stage& stage, const Change& change) {
     FrameOptions options = small;
     options.tier = change.tier;
     options.occlusion = true;
     options.batch = 512;
+    options.reprojection = true;
     Built before = room();
     before.settings.samples = 2;
     Scene after = before;
     change.make(after);
     const auto frames = [&](Renderer& renderer) {
         renderer.update(after, options);
-        while (renderer.statistics().frames < 2) renderer.render_frame();
+        while (renderer.statistics().frames < (change.reprojects ? Reprojection::pictures : 2)) renderer.render_frame();
     };
     Renderer& renderer = stage.renderer();
     renderer.update(before, options);
     renderer.discard();
     for (int i = 0; i < 3; ++i) renderer.render_frame();
+    stage.read(before, options, Method::farfield, View::result);
     for (int i = 0; change.within_frame && i < 7; ++i) renderer.step();
     frames(renderer);
     std::array<std::vector<Image>, 3> found;
@@ -100,6 +110,7 @@ Figures survivors(Stage& stage, const Change& change) {
     Figures figures;
     {
         Stage fresh;
+        options.seed = change.reprojects ? 1 : 0;  // each picture of a moving camera takes other samples
         frames(fresh.renderer());
         for (const Method m : methods) {
             int differing = 0;
@@ -157,6 +168,51 @@ Figures flicker_of_few(Stage& stage, const Point& p) {
                         few[1], few[2], 16 * samples, many[1], many[2])};
 }
 
+/// RMSE of farfield's indirect light in the first picture, of one sample, after eight moves of the camera around its
+/// target by so many degrees, with the past over without; of the room, two seeds.
+Figures reprojection(Stage& stage, const Point& p) {
+    constexpr int moves = 8, seeds = 6;
+    constexpr float start = 10.0f;
+    const auto from = [&](int move) {
+        Built scene = room();
+        const float angle = glm::radians(start + static_cast<float>(p.value * (moves - move)));
+        scene.look({1.5f * std::sin(angle), 0.1f, 1.5f * std::cos(angle) - 1.0f}, {0.0f, -0.2f, -1.0f}, 60.0f);
+        scene.settings.samples = 1;
+        return scene;
+    };
+    FrameOptions options = small;
+    const Image truth = stage.render(from(moves), options, 64, 16).indirect(Method::reference);
+    std::array<double, 2> errors{};
+    std::array<double, 2> shares{};
+    for (std::uint32_t seed = 1; seed <= seeds; ++seed)
+        for (const bool past : {false, true}) {
+            options.seed = 100 * seed + (past ? 0 : moves);
+            options.reprojection = past;
+            stage.renderer().update(from(moves), options);
+            stage.renderer().discard();
+            Image image;
+            for (int move = past ? 0 : moves; move <= moves; ++move) {
+                stage.renderer().update(from(move), options);
+                stage.renderer().render_frame();
+                image = stage.renderer().read(View::result);
+            }
+            const Image direct = stage.renderer().read(View::direct);
+            double sum = 0.0, mean = 0.0;
+            for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+                const double off = image.pixels[i] - direct.pixels[i] - truth.pixels[i];
+                sum += off * off;
+                mean += off;
+            }
+            errors[past] += sum;
+            shares[past] += mean;
+        }
+    double light = 0.0;
+    for (const float v : truth.pixels) light += v;
+    return {{std::nullopt, std::sqrt(errors[1] / errors[0]), std::nullopt},
+            fmt::format("mean off by {:.2g} %, without by {:.2g} %", 100.0 * shares[1] / light / seeds,
+                        100.0 * shares[0] / light / seeds)};
+}
+
 }  // namespace
 
 std::vector<Case> temporal_cases() {
@@ -170,7 +226,14 @@ std::vector<Case> temporal_cases() {
              {1, 4, 16},
              "deviation from picture to picture / that of the reference with 16 times the samples",
              flicker_of_few,
-             at_most(1.0)}};
+             at_most(1.0)},
+            {"reprojection",
+             "camera moves: what the last picture knew",
+             "degrees a move",
+             {0.03, 0.1, 0.3, 1, 3, 10},
+             "error of indirect light with the past / without",
+             reprojection,
+             [](const Point& p) { return p.value <= 3.0 ? 0.8 : 1.0; }}};
 }
 
 }  // namespace farfield::stability

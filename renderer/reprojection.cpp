@@ -1,0 +1,37 @@
+#include "renderer/reprojection.h"
+
+#include <utility>
+
+namespace farfield {
+
+void Reprojection::keep(gl::Texture& light, gl::Texture& guide, float unit, const FrameRecord& camera) {
+    const auto take = [](gl::Texture& ours, gl::Texture& theirs) {
+        std::swap(ours, theirs);
+        if (theirs.size() != ours.size()) theirs = {};
+    };
+    take(light_, light);
+    take(guide_, guide);
+    unit_ = unit;
+    camera_ = camera;
+}
+
+gl::Texture& Reprojection::add(Targets& targets, float samples, float most) const {
+    const auto pixels = [](glm::ivec2 size) { return static_cast<float>(size.x) * static_cast<float>(size.y); };
+    gl::Texture& result = targets.details[0];  // which the wavelet needs no more
+    targets.estimates[0].bind(0);
+    targets.guide.bind(1);
+    light_.bind(2);
+    guide_.bind(3);
+    result.bind_image(0, GL_WRITE_ONLY);
+    program_.set("past_position", camera_.camera_position);
+    program_.set("past_right", camera_.camera_right);
+    program_.set("past_up", camera_.camera_up);
+    program_.set("past_forward", camera_.camera_forward);
+    program_.set("past_unit", unit_ * pixels(light_.size()) / pixels(targets.size));
+    program_.set("samples", samples);
+    program_.set("most", most);
+    program_.run(targets.size);
+    return result;
+}
+
+}  // namespace farfield
