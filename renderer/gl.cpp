@@ -79,26 +79,37 @@ std::string driver_log(GLuint object, GetLength get_length, GetLog get_log) {
     return std::string(log.data());
 }
 
+/// One triangle that covers it.
+constexpr std::string_view whole_picture = R"(#version 430 core
+void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }
+)";
+
 }  // namespace
 
+GLenum stage_of(std::string_view source) {
+    return source.find("local_size_x") != std::string_view::npos ? GL_COMPUTE_SHADER : GL_FRAGMENT_SHADER;
+}
+
 Program::Program(std::string label, std::string_view source) : label_(std::move(label)) {
-    const GLuint shader = glCreateShader(GL_COMPUTE_SHADER);
-    const char* text = source.data();
-    const GLint length = static_cast<GLint>(source.size());
-    glShaderSource(shader, 1, &text, &length);
-    glCompileShader(shader);
-    GLint ok = GL_FALSE;
-    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
-    if (!ok) {
-        const std::string log = driver_log(shader, glGetShaderiv, glGetShaderInfoLog);
-        glDeleteShader(shader);
-        throw ShaderError(fmt::format("{} does not compile:\n{}", label_, log));
-    }
     handle_ = Handle<ProgramTraits>(glCreateProgram());
-    glAttachShader(handle_.name(), shader);
+    const auto attach = [&](GLenum stage, std::string_view part) {
+        const GLuint shader = glCreateShader(stage);
+        const char* text = part.data();
+        const GLint length = static_cast<GLint>(part.size());
+        glShaderSource(shader, 1, &text, &length);
+        glCompileShader(shader);
+        GLint ok = GL_FALSE;
+        glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+        const std::string log = ok ? "" : driver_log(shader, glGetShaderiv, glGetShaderInfoLog);
+        glAttachShader(handle_.name(), shader);
+        glDeleteShader(shader);  // when the program goes
+        if (!ok) throw ShaderError(fmt::format("{} does not compile:\n{}", label_, log));
+    };
+    const GLenum stage = stage_of(source);
+    attach(stage, source);
+    if (stage == GL_FRAGMENT_SHADER) attach(GL_VERTEX_SHADER, whole_picture);
     glLinkProgram(handle_.name());
-    glDetachShader(handle_.name(), shader);
-    glDeleteShader(shader);
+    GLint ok = GL_FALSE;
     glGetProgramiv(handle_.name(), GL_LINK_STATUS, &ok);
     if (!ok)
         throw ShaderError(fmt::format("{} does not link:\n{}", label_,
@@ -123,6 +134,28 @@ void Program::run(glm::ivec2 size) const {
     use();
     glDispatchCompute(static_cast<GLuint>((size.x + 7) / 8), static_cast<GLuint>((size.y + 7) / 8), 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+}
+
+void Program::draw(std::initializer_list<const Texture*> targets) const {
+    GLuint framebuffer = 0, vertices = 0;
+    glGenFramebuffers(1, &framebuffer);
+    glGenVertexArrays(1, &vertices);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+    glBindVertexArray(vertices);
+    std::vector<GLenum> buffers;
+    for (const Texture* target : targets) {
+        buffers.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(buffers.size()));
+        glFramebufferTexture2D(GL_FRAMEBUFFER, buffers.back(), GL_TEXTURE_2D, target->name(), 0);
+    }
+    glDrawBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
+    const glm::ivec2 size = (*targets.begin())->size();
+    glViewport(0, 0, size.x, size.y);
+    glDisable(GL_DITHER);
+    use();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glDeleteFramebuffers(1, &framebuffer);
+    glDeleteVertexArrays(1, &vertices);
 }
 
 }  // namespace gl

@@ -9,6 +9,7 @@
 #include <glm/vec4.hpp>
 
 #include <cstddef>
+#include <initializer_list>
 #include <map>
 #include <span>
 #include <stdexcept>
@@ -98,8 +99,11 @@ private:
     int levels_ = 0;
 };
 
-/// A compute program. Uniforms are set by name; a name that the program does not use is an error in the pass that sets
-/// it.
+/// GL_COMPUTE_SHADER for GLSL that says how large its groups are, else GL_FRAGMENT_SHADER.
+GLenum stage_of(std::string_view source);
+
+/// A program of one shader, for compute groups (`run`) or for every pixel of textures (`draw`); stage_of tells. Uniforms
+/// are set by name; a name that the program does not use is an error in the pass that sets it.
 class Program {
 public:
     Program() = default;
@@ -114,6 +118,9 @@ public:
     void run(std::size_t count) const;
     /// The same over a grid in groups of 8x8.
     void run(glm::ivec2 size) const;
+    /// Runs once for each pixel of the targets, all of one size, which take its outputs from location 0 on. On llvmpipe
+    /// that is twice as fast as storing images, which goes lane by lane.
+    void draw(std::initializer_list<const Texture*> targets) const;
     GLuint name() const { return handle_.name(); }
     explicit operator bool() const { return static_cast<bool>(handle_); }
 

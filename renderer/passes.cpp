@@ -225,13 +225,9 @@ const gl::Texture& FilterPass::run(Targets& targets, int blur_levels) const {
 bool WaveletPass::run(Targets& targets, int blur_levels, const std::function<bool()>& stop) const {
     const std::size_t levels = blur_levels > 0 ? static_cast<std::size_t>(blur_levels) + 1 : 0;
     make_textures(targets, levels);
-    targets.levels[0].far.bind_image(0, GL_WRITE_ONLY);
-    targets.levels[0].near.bind_image(1, GL_WRITE_ONLY);
-    targets.guide.bind_image(2, GL_WRITE_ONLY);
-    start_.run(targets.size);
+    start_.draw({&targets.levels[0].far, &targets.levels[0].near, &targets.guide});
     targets.guide.bind(0);
-    for (const unsigned direction : {0u, 1u}) targets.links[direction][0].bind_image(direction, GL_WRITE_ONLY);
-    links_.run(targets.size);
+    links_.draw({&targets.links[0][0], &targets.links[1][0]});
     for (std::size_t i = 0; i < levels; ++i) {
         if (stop && stop()) return false;
         // Rows first or columns first in turn, so that edges treat both alike.
@@ -271,52 +267,53 @@ void WaveletPass::smooth(const Targets& targets, std::size_t level, std::size_t 
     targets.guide.bind(2);
     source.gain.bind(3);
     targets.links[direction][level % 2].bind(4);
-    target.far.bind_image(0, GL_WRITE_ONLY);
-    target.near.bind_image(1, GL_WRITE_ONLY);
-    target.gain.bind_image(2, GL_WRITE_ONLY);
-    targets.links[direction][(level + 1) % 2].bind_image(3, GL_WRITE_ONLY);
     smooth_.set("step_x", direction == 0 ? 1 << level : 0);
     smooth_.set("step_y", direction == 0 ? 0 : 1 << level);
     smooth_.set("first", &source == &targets.levels[0] ? 1 : 0);
-    smooth_.run(targets.size);
+    smooth_.draw({&target.far, &target.near, &target.gain, &targets.links[direction][(level + 1) % 2]});
 }
 
 void WaveletPass::shrink(const Targets& targets, std::size_t level) const {
     const WaveletLevel &finer = targets.levels[level > 0 ? level - 1 : 0], &coarsest = targets.levels.back();
-    targets.details[level % 2].bind(0);
-    targets.estimates[(level + 1) % 2].bind(1);
-    targets.guide.bind(2);
+    const bool first = level + 1 == targets.levels.size();
+    if (first) {
+        coarsest.far.bind(0);
+        coarsest.near.bind(1);
+    } else {
+        targets.details[level % 2].bind(0);
+        targets.estimates[(level + 1) % 2].bind(1);
+        targets.guide.bind(2);
+        coarsest.near.bind(6);
+    }
     finer.far.bind(3);
     finer.near.bind(4);
     finer.gain.bind(5);
-    coarsest.far.bind(6);
-    coarsest.near.bind(7);
-    targets.levels[std::min(narrow_level, targets.levels.size() - 1)].far.bind(8);
-    targets.estimates[level % 2].bind_image(0, GL_WRITE_ONLY);
-    targets.details[(level + 1) % 2].bind_image(1, GL_WRITE_ONLY);
-    shrink_.set("level", static_cast<int>(level));
-    shrink_.set("narrow_level", static_cast<int>(narrow_level));
-    shrink_.set("coarsest", static_cast<int>(targets.levels.size() - 1));
-    shrink_.run(targets.size);
+    targets.levels[std::min(narrow_level, targets.levels.size() - 1)].far.bind(7);
+    const gl::Program& program = first ? coarsest_ : shrink_;
+    program.set("level", static_cast<int>(level));
+    program.set("narrow_level", static_cast<int>(narrow_level));
+    const gl::Texture& estimate = targets.estimates[level % 2];
+    if (level > 0)
+        program.draw({&estimate, &targets.details[(level + 1) % 2]});
+    else
+        program.draw({&estimate});
 }
 
 void SynthesisPass::run(const Targets& targets, const gl::Texture& filtered, const gl::Texture* estimate, int view,
                         Method method, int frames) const {
     filtered.bind(0);
     if (estimate) estimate->bind(1);
-    targets.view.bind_image(0, GL_WRITE_ONLY);
     program_.set("view", view);
     program_.set("method", static_cast<int>(method));
     program_.set("frames", static_cast<float>(std::max(frames, 1)));
-    program_.run(targets.size);
+    program_.draw({&targets.view});
 }
 
 void DisplayPass::run(const Targets& targets, const gl::Texture& output, int view, float exposure) const {
-    targets.view.bind_image(0, GL_READ_ONLY);
-    output.bind_image(1, GL_WRITE_ONLY);
+    targets.view.bind(0);
     program_.set("view", view);
     program_.set("exposure", exposure);
-    program_.run(targets.size);
+    program_.draw({&output});
 }
 
 }  // namespace farfield

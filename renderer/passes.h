@@ -128,7 +128,8 @@ private:
                 const WaveletLevel& target) const;
     void shrink(const Targets& targets, std::size_t level) const;
     gl::Program start_ = load_program("wavelet_start.glsl"), links_ = load_program("wavelet_links.glsl"),
-                smooth_ = load_program("wavelet_smooth.glsl"), shrink_ = load_program("wavelet_shrink.glsl");
+                smooth_ = load_program("wavelet_smooth.glsl"), coarsest_ = load_program("wavelet_coarsest.glsl"),
+                shrink_ = load_program("wavelet_shrink.glsl");
 };
 
 /// Accumulators and filtered light to targets.view, linear.

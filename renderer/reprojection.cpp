@@ -22,7 +22,6 @@ gl::Texture& Reprojection::add(Targets& targets, float samples, float most) cons
     targets.guide.bind(1);
     light_.bind(2);
     guide_.bind(3);
-    result.bind_image(0, GL_WRITE_ONLY);
     program_.set("past_position", camera_.camera_position);
     program_.set("past_right", camera_.camera_right);
     program_.set("past_up", camera_.camera_up);
@@ -30,7 +29,7 @@ gl::Texture& Reprojection::add(Targets& targets, float samples, float most) cons
     program_.set("past_unit", unit_ * pixels(light_.size()) / pixels(targets.size));
     program_.set("samples", samples);
     program_.set("most", most);
-    program_.run(targets.size);
+    program_.draw({&result});
     return result;
 }
 

@@ -216,3 +216,16 @@ float same_surface(vec4 guide, vec4 other_guide, float tangent_distance) {
     float plane = tangent_distance / max(2.0 * pixel_angle * guide.w, 1e-20);
     return guide.w > 0.0 && other_guide.w > 0.0 ? c16 * c16 * c16 * c16 * exp(-plane * plane) : 0.0;
 }
+
+// Light of a level of the wavelet, A B[F] / B[A] + B[N]: mean far radiance, which is smooth, times the openness of a narrow
+// level, plus near light.
+vec3 wavelet_light(vec4 far, vec3 near, int level, int narrow_level, float openness) {
+    return near + (level > narrow_level && far.w > 0.0 ? openness / far.w : 1.0) * far.rgb;
+}
+
+// What a level adds to the coarser estimate, and in w the variance of its noise: for the detail less than for the level; of the
+// B3 wavelet (Starck and Murtagh 1994) .79 / 1, .040 / .075, ...
+vec4 wavelet_detail(vec4 far, vec4 near, float gain, float most_noise, int level, int narrow_level, float openness, vec3 coarser) {
+    vec3 finer = wavelet_light(far, near.rgb, level, narrow_level, openness);
+    return vec4(finer - coarser, (level == 0 ? 0.79 : 0.5 * gain) * max(near.w, most_noise));
+}

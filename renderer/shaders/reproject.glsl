@@ -1,12 +1,10 @@
 // The estimate with what the last picture knew of the same surfaces, which it saw from another camera. Irradiance does not
 // depend on where one looks from, so that only what is hidden there, or was no part of the picture, has no past.
-layout(local_size_x = 8, local_size_y = 8) in;
-
 layout(binding = 0) uniform sampler2D estimate;
 layout(binding = 1) uniform sampler2D guide;
 layout(binding = 2) uniform sampler2D past;        // w: see past_unit
 layout(binding = 3) uniform sampler2D past_guide;  // normal; w: depth, 0 for no surface
-layout(binding = 0, rgba32f) writeonly uniform image2D target;  // w: samples for each of this picture's pixels
+layout(location = 0) out vec4 target;  // w: samples for each of this picture's pixels
 
 uniform vec3 past_position, past_right, past_up, past_forward;  // its camera, as in the frame's constants
 uniform float past_unit;  // samples that a past w of 1 stands for, for each of this picture's pixels
@@ -14,8 +12,7 @@ uniform float samples;    // of this picture
 uniform float most;       // samples that the past may count for
 
 void main() {
-    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(at, image_size))) return;
+    ivec2 at = ivec2(gl_FragCoord.xy);
     vec4 here = texelFetch(guide, at, 0);
     vec3 seen = camera_position - past_position + here.w * ray_at(at);  // from the past camera
     float depth = dot(seen, past_forward);
@@ -42,5 +39,5 @@ void main() {
     vec3 light = texelFetch(estimate, at, 0).rgb;
     float known = min(sum.w * past_unit, most * agreed);
     if (known > 0.0) light = mix(light, sum.rgb / agreed, known / (known + samples));
-    imageStore(target, at, vec4(light, samples + known));
+    target = vec4(light, samples + known);
 }

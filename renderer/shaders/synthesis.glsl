@@ -2,19 +2,16 @@
 // Phong plus albedo x ambient occlusion x filtered far light ("ambient occlusion whose ambient colour is the filtered
 // light"). Its product counts near occlusion twice; the reference method uses what was accumulated as it is, and
 // farfield the estimate of the wavelet passes (METHOD.md).
-layout(local_size_x = 8, local_size_y = 8) in;
-
 layout(binding = 0) uniform sampler2D filtered_light;  // premultiplied by w
 layout(binding = 1) uniform sampler2D estimate;
-layout(binding = 0, rgba32f) writeonly uniform image2D target;
+layout(location = 0) out vec4 target;
 
 uniform int view;    // enum View of renderer/views.h
 uniform int method;  // enum Method of sdf/scene.h
 uniform float frames;  // accumulated
 
 void main() {
-    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(at, image_size))) return;
+    ivec2 at = ivec2(gl_FragCoord.xy);
     int pixel = at.y * image_size.x + at.x;
     vec4 direct4 = direct_sum[pixel];
     vec3 direct = direct4.rgb / frames;
@@ -44,5 +41,5 @@ void main() {
     if (view == 6) color = geometry.w > 0.0 ? normalize(geometry.xyz + vec3(0.0, 1e-9, 0.0)) * 0.5 + 0.5 : vec3(0.0);
     if (view == 7) color = vec3(geometry.w > 0.0 ? direct4.w / geometry.w : 0.0);
     if (view == 8) color = vec3(albedo4.w / frames);
-    imageStore(target, at, vec4(color, 1.0));
+    target = vec4(color, 1.0);
 }

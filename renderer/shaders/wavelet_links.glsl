@@ -1,24 +1,21 @@
 // How well a pixel hangs together with its neighbours to the right and below. The wavelet takes the weakest link on the way
 // to a tap, so far light stays on its side of a wall that is thinner than the filter's steps, though both sides of the floor
 // have one normal and one plane.
-layout(local_size_x = 8, local_size_y = 8) in;
-
 layout(binding = 0) uniform sampler2D guide;
-layout(binding = 0, r32f) writeonly uniform image2D right;
-layout(binding = 1, r32f) writeonly uniform image2D below;
+layout(location = 0) out float right;
+layout(location = 1) out float below;
 
-vec4 link(vec4 here, ivec2 at, ivec2 offset) {
+float link(vec4 here, ivec2 at, ivec2 offset) {
     ivec2 tap = min(at + offset, image_size - 1);
     vec4 there = texelFetch(guide, tap, 0);
     // The fourth root: bent surfaces hang together, only breaks cut.
-    return vec4(sqrt(sqrt(min(same_surface(here, there, tangent_distance(here, at, there, tap)),
-                              same_surface(there, here, tangent_distance(there, tap, here, at))))));
+    return sqrt(sqrt(min(same_surface(here, there, tangent_distance(here, at, there, tap)),
+                         same_surface(there, here, tangent_distance(there, tap, here, at)))));
 }
 
 void main() {
-    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(at, image_size))) return;
+    ivec2 at = ivec2(gl_FragCoord.xy);
     vec4 here = texelFetch(guide, at, 0);
-    imageStore(right, at, link(here, at, ivec2(1, 0)));
-    imageStore(below, at, link(here, at, ivec2(0, 1)));
+    right = link(here, at, ivec2(1, 0));
+    below = link(here, at, ivec2(0, 1));
 }

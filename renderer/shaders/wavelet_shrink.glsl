@@ -1,33 +1,22 @@
-// One level of the estimate, from the coarsest, taken as it is, to the accumulated light: adds the level's detail to the coarser
+// One level of the estimate, after wavelet_coarsest.glsl, down to the accumulated light: adds the level's detail to the coarser
 // estimate as far as it is more than noise. James-Stein shrinkage by b² / (b² + v), where b² = max(0, <detail²> - k <v>) and < >
 // are means over the surface around. Then it leaves the detail of the next finer level: its irradiance / pi less this estimate.
-layout(local_size_x = 8, local_size_y = 8) in;
-
 layout(binding = 0) uniform sampler2D detail;   // w: variance of the level's noise
 layout(binding = 1) uniform sampler2D coarser;
 layout(binding = 2) uniform sampler2D guide;
 layout(binding = 3) uniform sampler2D finer_far;
 layout(binding = 4) uniform sampler2D finer_near;
 layout(binding = 5) uniform sampler2D finer_gain;
-layout(binding = 6) uniform sampler2D coarsest_far;
-layout(binding = 7) uniform sampler2D coarsest_near;  // w: variance of a single pixel, averaged as widely as anything
-layout(binding = 8) uniform sampler2D narrow_far;     // w: openness A, see narrow_level
-layout(binding = 0, rgba32f) writeonly uniform image2D estimate;
-layout(binding = 1, rgba32f) writeonly uniform image2D finer_detail;
+layout(binding = 6) uniform sampler2D coarsest_near;  // w: variance of a single pixel, averaged as widely as anything
+layout(binding = 7) uniform sampler2D narrow_far;     // w: openness A, see narrow_level
+layout(location = 0) out vec4 estimate;
+layout(location = 1) out vec4 finer_detail;
 
 uniform int level;
-uniform int coarsest;      // its number
 uniform int narrow_level;  // whose openness is the one in front
 
-// A B[F] / B[A] + B[N]: mean far radiance, which is smooth, times the openness of a narrow filter, plus near light.
-vec3 light(vec4 far, vec3 near, float openness, int at_level) {
-    float ratio = at_level > narrow_level && far.w > 0.0 ? openness / far.w : 1.0;
-    return near + ratio * far.rgb;
-}
-
 void main() {
-    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(at, image_size))) return;
+    ivec2 at = ivec2(gl_FragCoord.xy);
     vec4 here = texelFetch(guide, at, 0);
     // tangent_distance of the taps: linear in their place but for the depth.
     vec3 ray = ray_at(at);
@@ -53,15 +42,10 @@ void main() {
     float uncertain = noise / (noise + 0.1 * dot(so_far, so_far) / 3.0 + 1e-30);
     float bias = max(energy - (1.25 + 2.5 * uncertain) * noise, 0.0);  // k: measured, see METHOD.md
     float alpha = bias > 0.0 ? bias / (bias + noise) : 0.0;
+    vec3 result = so_far + alpha * texelFetch(detail, at, 0).rgb;
+    estimate = vec4(result, 1.0);
     float openness = texelFetch(narrow_far, at, 0).w;
-    vec4 widest = texelFetch(coarsest_near, at, 0);
-    vec3 result = level == coarsest ? light(texelFetch(coarsest_far, at, 0), widest.rgb, openness, level)
-                                    : so_far + alpha * texelFetch(detail, at, 0).rgb;
-    imageStore(estimate, at, vec4(result, 1.0));
-    if (level == 0) return;
-    vec4 near = texelFetch(finer_near, at, 0);
-    vec3 finer = light(texelFetch(finer_far, at, 0), near.rgb, openness, level - 1);
-    // Noise of a detail for that of its level; of the B3 wavelet (Starck and Murtagh 1994): .79 / 1, .040 / .075, ...
-    float share = level == 1 ? 0.79 : 0.5 * texelFetch(finer_gain, at, 0).r;
-    imageStore(finer_detail, at, vec4(finer - result, share * max(near.w, widest.w)));
+    float most_noise = texelFetch(coarsest_near, at, 0).w;
+    finer_detail = wavelet_detail(texelFetch(finer_far, at, 0), texelFetch(finer_near, at, 0), texelFetch(finer_gain, at, 0).r,
+                                  most_noise, level - 1, narrow_level, openness, result);
 }

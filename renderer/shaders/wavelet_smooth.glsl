@@ -1,17 +1,15 @@
 // Half a level of the edge-avoiding à-trous wavelet (Dammertz et al. 2010): the B3 spline along rows or columns, on one surface
 // only. Dammertz et al. take its 25 taps at once; two passes of 5 cost half as much and lose 1 %. Far light, openness, near
 // light and the variance of a single pixel get the same weights; noise_gain is how much of that variance is left.
-layout(local_size_x = 8, local_size_y = 8) in;
-
 layout(binding = 0) uniform sampler2D far_source;
 layout(binding = 1) uniform sampler2D near_source;
 layout(binding = 2) uniform sampler2D guide;
 layout(binding = 3) uniform sampler2D gain_source;
 layout(binding = 4) uniform sampler2D links;  // from a tap to the next in this direction, see wavelet_links.glsl
-layout(binding = 0, rgba32f) writeonly uniform image2D far_target;
-layout(binding = 1, rgba32f) writeonly uniform image2D near_target;
-layout(binding = 2, r32f) writeonly uniform image2D gain_target;
-layout(binding = 3, r32f) writeonly uniform image2D next_links;  // for twice the step
+layout(location = 0) out vec4 far_target;
+layout(location = 1) out vec4 near_target;
+layout(location = 2) out float gain_target;
+layout(location = 3) out float next_links;  // for twice the step
 
 uniform int step_x;  // from tap to tap, pixels
 uniform int step_y;
@@ -22,8 +20,7 @@ float link(ivec2 tap) {
 }
 
 void main() {
-    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(at, image_size))) return;
+    ivec2 at = ivec2(gl_FragCoord.xy);
     ivec2 one = ivec2(step_x, step_y);
     vec4 here = texelFetch(guide, at, 0);
     // The distance of taps from the tangent plane, tangent_distance of common.glsl, is linear in their place but for the depth.
@@ -47,8 +44,8 @@ void main() {
         squares += weight * weight;
     }
     float scale = total > 0.0 ? 1.0 / total : 0.0;
-    imageStore(far_target, at, far * scale);
-    imageStore(near_target, at, near * scale);
-    imageStore(gain_target, at, vec4((first == 1 ? 1.0 : texelFetch(gain_source, at, 0).r) * squares * scale * scale));
-    imageStore(next_links, at, vec4(way[4]));
+    far_target = far * scale;
+    near_target = near * scale;
+    gain_target = (first == 1 ? 1.0 : texelFetch(gain_source, at, 0).r) * squares * scale * scale;
+    next_links = way[4];
 }

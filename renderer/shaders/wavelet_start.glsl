@@ -1,14 +1,11 @@
 // Level 0 of the wavelet: far and near light as accumulated, divided by pi, with the openness A and the variance of the mean,
 // and the guide that tells surfaces apart.
-layout(local_size_x = 8, local_size_y = 8) in;
-
-layout(binding = 0, rgba32f) writeonly uniform image2D far_light;   // w: openness of the same rays
-layout(binding = 1, rgba32f) writeonly uniform image2D near_light;  // w: variance of the mean of near + far
-layout(binding = 2, rgba32f) writeonly uniform image2D guide;       // normal; w: depth, 0 for no surface
+layout(location = 0) out vec4 far_light;   // w: openness of the same rays
+layout(location = 1) out vec4 near_light;  // w: variance of the mean of near + far
+layout(location = 2) out vec4 guide;       // normal; w: depth, 0 for no surface
 
 void main() {
-    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
-    if (any(greaterThanEqual(at, image_size))) return;
+    ivec2 at = ivec2(gl_FragCoord.xy);
     int pixel = at.y * image_size.x + at.x;
     vec4 geometry = geometry_sum[pixel];
     vec4 whole = far_sum[pixel];
@@ -24,7 +21,7 @@ void main() {
     float known = whole.w > 1.0 ? dot(mean, mean) / 3.0 : 0.0;
     float spread = max(square_sum[pixel] / max(whole.w, 1.0) - known, 0.0);
     vec3 normal = normalize(geometry.xyz + vec3(0.0, 1e-9, 0.0));
-    imageStore(far_light, at, far);
-    imageStore(near_light, at, vec4(near.rgb, spread / max(whole.w - 1.0, 1.0) * (1.0 + 4.0 / max(whole.w, 1.0))));
-    imageStore(guide, at, any_surface ? vec4(normal, direct_sum[pixel].w / geometry.w / length(ray_at(at))) : vec4(0.0));
+    far_light = far;
+    near_light = vec4(near.rgb, spread / max(whole.w - 1.0, 1.0) * (1.0 + 4.0 / max(whole.w, 1.0)));
+    guide = any_surface ? vec4(normal, direct_sum[pixel].w / geometry.w / length(ray_at(at))) : vec4(0.0);
 }

@@ -28,7 +28,7 @@ std::string problems(const std::string& source) {
     if (!initialised) return "glslang does not start";
     if (source.find("#extension") != std::string::npos) return "asks for an extension";
     const char* text = source.c_str();
-    glslang::TShader shader(EShLangCompute);
+    glslang::TShader shader(gl::stage_of(source) == GL_COMPUTE_SHADER ? EShLangCompute : EShLangFragment);
     shader.setStrings(&text, 1);
     const bool parsed = shader.parse(GetDefaultResources(), 430, ECoreProfile, true, false, EShMsgDefault);
     glslang::TProgram program;
@@ -65,10 +65,12 @@ Figures refused_kernels(const Point& point) {
     if (point.value == -2.0) {
         // A scene stands before its own two kernels; all others are whole.
         for (const char* pass :
-             {"bounce.glsl", "bounce_light.glsl", "camera.glsl", "direct.glsl", "display.glsl", "filter_blur.glsl",
-              "filter_mip.glsl", "filter_start.glsl", "gather.glsl", "gbuffer.glsl", "hemisphere.glsl",
-              "light_rays.glsl", "occlusion.glsl", "roulette.glsl", "synthesis.glsl", "wavelet_links.glsl",
-              "wavelet_shrink.glsl", "wavelet_smooth.glsl", "wavelet_start.glsl"})
+             {"bounce.glsl",           "bounce_light.glsl",  "camera.glsl",         "direct.glsl",
+              "display.glsl",          "filter_blur.glsl",   "filter_mip.glsl",     "filter_start.glsl",
+              "gather.glsl",           "gbuffer.glsl",       "hemisphere.glsl",     "light_rays.glsl",
+              "occlusion.glsl",        "reproject.glsl",     "roulette.glsl",       "synthesis.glsl",
+              "wavelet_coarsest.glsl", "wavelet_links.glsl", "wavelet_shrink.glsl", "wavelet_smooth.glsl",
+              "wavelet_start.glsl"})
             check.add(shader_source(pass));
     } else if (point.value == -1.0) {
         for (unsigned seed = 0; seed < 100; ++seed) check.add(random_scene(seed, 30));
