@@ -1,5 +1,6 @@
 #include "app/commands.h"
 
+#include "app/headless.h"
 #include "app/progress.h"
 #include "renderer/picture_file.h"
 #include "renderer/renderer.h"
@@ -19,28 +20,6 @@
 #include <numeric>
 
 namespace farfield {
-namespace {
-
-/// A scene with the settings of the command line, and a renderer in a context of its own.
-struct Headless {
-    Headless(Scene of, const Overrides& overrides, ContextKind kind) : scene(std::move(of)) {
-        overrides.apply(scene.settings);
-        context = make_headless_context(kind);
-        context->make_current();
-        renderer.emplace();
-    }
-    Scene scene;
-    std::unique_ptr<Context> context;
-    std::optional<Renderer> renderer;  ///< goes before its context
-};
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t half = values.size() / 2;
-    return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
-}  // namespace
 
 bool render_frames(Renderer& renderer, int frames, Progress& progress) {
     for (int i = 0; i < frames; ++i) {
@@ -139,57 +118,6 @@ int run_glsl(const GlslOptions& options) {
 
 int run_schema() {
     fmt::print("{}", scene_schema());
-    return 0;
-}
-
-int run_bench(const BenchOptions& options) {
-    Headless headless(load_trusted_scene(options.scene, options.trust_code), options.overrides, options.context);
-    const Scene& scene = headless.scene;
-    Renderer& renderer = *headless.renderer;
-    FrameOptions frame;
-    frame.size = options.size;
-    fmt::print("scene     {}, {} nodes\ndevice    {} ({})\npicture   {} x {}, {} samples per frame, {}\n",
-               options.scene.string(), count_nodes(scene), renderer.statistics().device, headless.context->name(),
-               options.size.x, options.size.y, scene.settings.samples,
-               scene.settings.bounces > 0 ? fmt::format("{} bounces", scene.settings.bounces) : "automatic bounces");
-
-    for (const Tier tier : {Tier::specialised, Tier::live}) {
-        if (tier == Tier::live && !options.live) break;
-        const char* name = tier == Tier::live ? "live" : "specialised";
-        frame.tier = tier;
-        frame.counting = false;
-        const double compile_start = process_cpu_seconds();
-        renderer.update(scene, frame);
-        fmt::print("\n{} program: compiled in {:.0f} ms, process CPU time {:.0f} ms\n", name,
-                   renderer.statistics().compile_milliseconds, 1e3 * (process_cpu_seconds() - compile_start));
-        const gl::Texture picture("display", GL_RGBA8, options.size);
-        std::vector<double> cpu, wall, filter;
-        std::vector<PassTime> passes;
-        for (int i = -1; i < options.frames; ++i) {
-            const double cpu_start = process_cpu_seconds();
-            const auto wall_start = std::chrono::steady_clock::now();
-            renderer.render_frame();
-            const double cpu_traced = process_cpu_seconds();
-            renderer.display(picture);
-            glFinish();
-            if (i < 0) continue;  // drivers compile at first use
-            cpu.push_back(process_cpu_seconds() - cpu_start);
-            filter.push_back(process_cpu_seconds() - cpu_traced);
-            wall.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start).count());
-            passes = renderer.statistics().passes;
-        }
-        fmt::print("  frame              {:8.1f} ms   {:.2f} frames/s, process CPU time {:.1f} ms (medians of {})\n",
-                   1e3 * median(wall), 1.0 / median(wall), 1e3 * median(cpu), options.frames);
-        for (const PassTime& pass : passes) fmt::print("  {:<18} {:8.1f} ms\n", pass.name, pass.milliseconds);
-        fmt::print("  filter and display {:8.1f} ms of process CPU time\n", 1e3 * median(filter));
-        frame.counting = true;
-        renderer.update(scene, frame);
-        renderer.render_frame();
-        const Statistics& s = renderer.statistics();
-        fmt::print("  rays               {:8}      {:.1f} evaluations per ray, {} stopped by the step limit\n", s.rays,
-                   static_cast<double>(s.evaluations) / static_cast<double>(std::max<std::uint64_t>(s.rays, 1)),
-                   s.exhausted_rays);
-    }
     return 0;
 }
 

@@ -62,17 +62,6 @@ struct GlslOptions {
 };
 int run_glsl(const GlslOptions& options);
 
-struct BenchOptions {
-    std::filesystem::path scene;
-    bool trust_code = false;
-    glm::ivec2 size{512, 512};
-    bool live = false;  ///< the live tier too
-    int frames = 5;     ///< measured, after one that is not
-    ContextKind context = ContextKind::automatic;
-    Overrides overrides;
-};
-int run_bench(const BenchOptions& options);
-
 /// Prints the scene format's JSON Schema.
 int run_schema();
 

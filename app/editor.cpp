@@ -249,9 +249,12 @@ void Editor::write_report(double now) {
     const Scene& scene = document_.scene();
     CodePanel::Lines lines;
     if (ui_.show_code && ui_.report.on()) lines = layout_.code().lines();
+    const auto label = [](View view) { return std::string(views()[static_cast<std::size_t>(view)].label); };
     ui_.report.write({.statistics = picture_.statistics,
                       .revision = document_.revision(),
                       .pictures = pictures_,
+                      .view = label(picture_.view),
+                      .beside = picture_.beside ? label(picture_.beside->view) : "",
                       .ui_milliseconds = ui_.frame_milliseconds,
                       .saved = document_.saved(),
                       .file = document_.file().string(),

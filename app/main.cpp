@@ -1,4 +1,5 @@
 // The command line: `farfield [SCENE]` opens the editor, the subcommands work without a window.
+#include "app/bench.h"
 #include "app/chart.h"
 #include "app/chart_table.h"
 #include "app/check.h"
@@ -244,10 +245,12 @@ int run(int argc, char** argv) {
     CLI::App* schema_command = app.add_subcommand("schema", "Print the JSON Schema of scene files");
 
     BenchOptions bench;
-    CLI::App* bench_command = app.add_subcommand("bench", "Time per pass, evaluations per ray, compile time");
+    CLI::App* bench_command = app.add_subcommand("bench", "Time per pass, evaluations per ray, compile time, memory");
     bench_command->add_option("SCENE", bench.scene, "Scene file")->required();
     add_whole(*bench_command, "--frames", bench.frames, 1, 10'000, "Frames to measure, default 5");
     bench_command->add_flag("--live", bench.live, "Also the tier that reads its numbers from a parameter block");
+    bench_command->add_flag("--limit", bench.limit, "Also how near the tracer comes to what the device could do");
+    bench_command->add_option("--json", bench.json, "Everything measured, for programs")->type_name("FILE");
     add_trust(*bench_command, bench.trust_code);
     add_common(*bench_command, bench.size, bench.context, bench.overrides);
 

@@ -59,6 +59,15 @@ Texture::Texture(const std::string& label, GLenum format, glm::ivec2 size, int l
         throw std::runtime_error(fmt::format("cannot make texture \"{}\" of {} x {}", label, size.x, size.y));
 }
 
+std::size_t Texture::bytes() const {
+    const std::size_t pixel = format_ == GL_RGBA32F ? 16 : 4;
+    std::size_t sum = 0;
+    for (int level = 0; level < levels_; ++level)
+        sum += pixel * static_cast<std::size_t>(std::max(size_.x >> level, 1)) *
+               static_cast<std::size_t>(std::max(size_.y >> level, 1));
+    return sum;
+}
+
 void Texture::bind(GLuint unit) const {
     glActiveTexture(GL_TEXTURE0 + unit);
     glBindTexture(GL_TEXTURE_2D, name());

@@ -71,6 +71,7 @@ public:
         upload(items.data(), items.size_bytes());
     }
     void read(void* data, std::size_t bytes, std::size_t offset = 0) const;
+    std::size_t bytes() const { return size_; }
     void bind_storage(GLuint binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, handle_.name()); }
     void bind_uniform(GLuint binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, handle_.name()); }
 
@@ -88,6 +89,7 @@ public:
     GLuint name() const { return handle_.name(); }
     glm::ivec2 size() const { return size_; }
     int levels() const { return levels_; }
+    std::size_t bytes() const;
     void bind(GLuint unit) const;
     void bind_image(GLuint unit, GLenum access, int level = 0) const;
     explicit operator bool() const { return static_cast<bool>(handle_); }
@@ -102,8 +104,8 @@ private:
 /// GL_COMPUTE_SHADER for GLSL that says how large its groups are, else GL_FRAGMENT_SHADER.
 GLenum stage_of(std::string_view source);
 
-/// A program of one shader, for compute groups (`run`) or for every pixel of textures (`draw`); stage_of tells. Uniforms
-/// are set by name; a name that the program does not use is an error in the pass that sets it.
+/// A program of one shader, for compute groups (`run`) or for every pixel of textures (`draw`); stage_of tells.
+/// Uniforms are set by name; a name that the program does not use is an error in the pass that sets it.
 class Program {
 public:
     Program() = default;

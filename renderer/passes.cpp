@@ -21,15 +21,21 @@ glm::ivec2 level_size(glm::ivec2 size, int level) {
 /// does not: grazing rays that start nearer took 12 % of the time of the Cornell room.
 constexpr float start_of_seen_shadows = 0.2f, start_of_other_shadows = 1.0f;
 
+void trace(const Work& work, RayKind kind) {
+    if (work.observer) work.observer(work, kind);
+    work.tracer.trace(work.count, needs_surfaces(kind), work.counting);
+}
+
 /// Shadow rays from the bound surfaces to light `light`, traced.
-void trace_shadow_rays(const gl::Program& rays, const Work& work, std::size_t first_surface, int light, float start) {
+void trace_shadow_rays(const gl::Program& rays, const Work& work, RayKind kind, std::size_t first_surface, int light,
+                       float start) {
     rays.set("ray_count", static_cast<unsigned>(work.count));
     rays.set("first_surface", static_cast<unsigned>(first_surface));
     rays.set("light_index", static_cast<unsigned>(light));
     rays.set("reach", far_reach);
     rays.set("start", start);
     rays.run(work.count);
-    work.tracer.trace(work.count, false, work.counting);
+    trace(work, kind);
 }
 
 /// Rays over the hemispheres of the bound surfaces.
@@ -98,6 +104,23 @@ void Targets::bind() const {
     squares.bind_storage(binding::squares);
 }
 
+std::size_t Targets::bytes() const {
+    std::size_t sum = mips.bytes() + blurred.bytes() + view.bytes() + guide.bytes();
+    for (const gl::Buffer* buffer : {&surfaces, &direct, &geometry, &reflectance, &far_light, &indirect, &occlusion,
+                                     &split_far, &split_near, &squares})
+        sum += buffer->bytes();
+    const auto add = [&](const WaveletLevel& level) {
+        sum += level.far.bytes() + level.near.bytes() + level.gain.bytes();
+    };
+    for (const WaveletLevel& level : levels) add(level);
+    add(half_level);
+    for (const auto& direction : links)
+        for (const gl::Texture& texture : direction) sum += texture.bytes();
+    for (const auto* pair : {&details, &estimates})
+        for (const gl::Texture& texture : *pair) sum += texture.bytes();
+    return sum;
+}
+
 Batch::Batch() {
     rays.resize(capacity * ray_bytes);
     hits.resize(capacity * hit_bytes);
@@ -116,7 +139,7 @@ void CameraPass::run(const Work& work) const {
     rays_.set("first_pixel", static_cast<unsigned>(work.first_pixel));
     rays_.set("reach", far_reach);
     rays_.run(work.count);
-    work.tracer.trace(work.count, true, work.counting);
+    trace(work, RayKind::camera);
     gbuffer_.set("ray_count", static_cast<unsigned>(work.count));
     gbuffer_.set("first_pixel", static_cast<unsigned>(work.first_pixel));
     gbuffer_.run(work.count);
@@ -124,7 +147,7 @@ void CameraPass::run(const Work& work) const {
 
 void DirectPass::run(const Work& work) const {
     for (int light = 0; light < work.light_count; ++light) {
-        trace_shadow_rays(rays_, work, work.first_pixel, light, start_of_seen_shadows);
+        trace_shadow_rays(rays_, work, RayKind::shadow, work.first_pixel, light, start_of_seen_shadows);
         shade_.set("ray_count", static_cast<unsigned>(work.count));
         shade_.set("first_pixel", static_cast<unsigned>(work.first_pixel));
         shade_.set("light_index", static_cast<unsigned>(light));
@@ -156,13 +179,13 @@ void FarLightPass::run(const Work& work, unsigned sample_index, int bounces, flo
 }
 
 void FarLightPass::follow(const Work& work, bool first) const {
-    work.tracer.trace(work.count, true, work.counting);
+    trace(work, RayKind::bounce);
     work.batch.vertices.bind_storage(binding::surfaces);
     bounce_.set("ray_count", static_cast<unsigned>(work.count));
     bounce_.set("first_bounce", first ? 1 : 0);
     bounce_.run(work.count);
     for (int light = 0; light < work.light_count; ++light) {
-        trace_shadow_rays(light_rays_, work, 0, light, start_of_other_shadows);
+        trace_shadow_rays(light_rays_, work, RayKind::bounce_shadow, 0, light, start_of_other_shadows);
         light_.set("ray_count", static_cast<unsigned>(work.count));
         light_.set("light_index", static_cast<unsigned>(light));
         light_.run(work.count);
@@ -195,7 +218,7 @@ std::vector<double> FarLightPass::measure(const Work& work, int bounces) const {
 
 void OcclusionPass::run(const Work& work, unsigned sample_index, float radius) const {
     HemisphereRays{work.first_pixel, sample_index, occlusion_stream, true, false, radius}.run(hemisphere_, work);
-    work.tracer.trace(work.count, false, work.counting);
+    trace(work, RayKind::occlusion);
     gather_.set("ray_count", static_cast<unsigned>(work.count));
     gather_.set("first_pixel", static_cast<unsigned>(work.first_pixel));
     gather_.run(work.count);

@@ -22,6 +22,7 @@ struct Targets {
     void clear();            ///< everything: scene, camera or light transport changed
     void clear_ao_radius();  ///< what depends on the AO radius
     void bind() const;
+    std::size_t bytes() const;  ///< of buffers and textures
     std::size_t pixels() const { return static_cast<std::size_t>(size.x) * size.y; }
 
     glm::ivec2 size;
@@ -41,8 +42,19 @@ struct Batch {
     static constexpr std::size_t capacity = 1 << 17;
     Batch();
     void bind() const;
+    std::size_t bytes() const { return rays.bytes() + hits.bytes() + vertices.bytes() + paths.bytes(); }
     gl::Buffer rays{"rays"}, hits{"hits"}, vertices{"vertices"}, paths{"paths"};
 };
+
+/// What rays are traced for.
+enum class RayKind { camera, shadow, bounce, bounce_shadow, occlusion };
+inline constexpr const char* ray_kind_names[] = {"camera", "shadow", "bounce", "shadow of a bounce", "occlusion"};
+/// Of what they meet, normal and material are wanted; else only whether they meet anything.
+constexpr bool needs_surfaces(RayKind kind) { return kind == RayKind::camera || kind == RayKind::bounce; }
+
+struct Work;
+/// Is told of rays before they are traced. May trace them itself, but not change them.
+using RayObserver = std::function<void(const Work& work, RayKind kind)>;
 
 /// A run of pixels, at most Batch::capacity, and what all passes need to work on it.
 struct Work {
@@ -53,6 +65,7 @@ struct Work {
     std::size_t count;
     int light_count;
     bool counting;
+    const RayObserver& observer;  ///< or none
 };
 
 /// How far rays look, metres.

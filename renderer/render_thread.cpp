@@ -491,6 +491,8 @@ void RenderThread::State::show() {
     slot.picture.other = slot.other.name();
     slot.picture.size = renderer->size();
     slot.picture.serial = ++serial;
+    slot.picture.view = options.view;
+    slot.picture.beside = options.other;
     shown_time = Clock::now();
     show_time = shown_time - start;
     const std::lock_guard lock(mutex);

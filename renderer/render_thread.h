@@ -43,7 +43,9 @@ struct RenderedPicture {
     unsigned texture = 0;  ///< RGBA8, display-ready, row 0 at the top; 0 until the first picture is there
     unsigned other = 0;    ///< the same with the other look; 0 where none was asked for
     glm::ivec2 size{0};
-    std::uint64_t serial = 0;  ///< counts pictures
+    std::uint64_t serial = 0;    ///< counts pictures
+    View view = View::result;    ///< what it shows
+    std::optional<Look> beside;  ///< and what the other one
     Statistics statistics;
     int compiled = 0, to_compile = 0;  ///< programs that the latest scene still needed; equal when they are there
     std::string error;                 ///< why the latest scene is not the one in the picture; empty when it is

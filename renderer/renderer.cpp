@@ -179,7 +179,8 @@ Work Renderer::next_work() const {
             first_pixel_,
             std::min(batch_size_, targets_->pixels() - first_pixel_),
             static_cast<int>(scene_.lights.size()),
-            options_.counting};
+            options_.counting,
+            observer_};
 }
 
 void Renderer::begin_frame() {

@@ -93,6 +93,12 @@ public:
     std::vector<unsigned char> display_pixels();  ///< RGB, row 0 at the top
     Image read(View view);                        ///< linear
 
+    /// Is told of all rays from now on; see passes.h.
+    void observe(RayObserver observer) { observer_ = std::move(observer); }
+    /// What it holds of the device's memory: for the picture, and whatever the picture, in bytes.
+    std::size_t picture_bytes() const { return targets_->bytes(); }
+    std::size_t fixed_bytes() const { return batch_.bytes(); }
+
     const Statistics& statistics() const { return statistics_; }
     glm::ivec2 size() const { return options_.size; }
 
@@ -129,6 +135,7 @@ private:
     SynthesisPass synthesis_pass_;
     DisplayPass display_pass_;
     Reprojection past_;
+    RayObserver observer_;
     Batch batch_;
     gl::Buffer frame_{"frame"}, materials_{"materials"}, lights_{"lights"}, counters_{"counters"};
     std::optional<Targets> targets_;

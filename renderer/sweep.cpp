@@ -19,31 +19,6 @@ std::vector<SweepRun::Reading> own_readings(Varied varied, int blur_levels) {
         {varied, Method::paper, blur_levels}, {varied, Method::farfield, blur_levels}, {varied, Method::reference, 0}};
 }
 
-/// Time of work on the device: what `work` adds to the clock that counts.
-class Stopwatch {
-public:
-    explicit Stopwatch(bool on_cpu) : on_cpu_(on_cpu) {}
-    template <class Work>
-    double seconds(Work work) {
-        if (on_cpu_) {
-            const double start = process_cpu_seconds();
-            work();
-            glFinish();
-            return process_cpu_seconds() - start;
-        }
-        timers_.begin_frame();
-        {
-            Timers::Scope scope(timers_, "work");
-            work();
-        }
-        return 1e-3 * timers_.collect().at(0).milliseconds;
-    }
-
-private:
-    bool on_cpu_;
-    Timers timers_;
-};
-
 /// The part of the last frame that was ambient occlusion, 0..1.
 double occlusion_share(const Statistics& statistics) {
     double all = 0.0, occlusion = 0.0;

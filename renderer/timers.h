@@ -39,4 +39,29 @@ private:
     std::size_t used_ = 0;
 };
 
+/// Time of work on the device: what `work` adds to the clock that counts.
+class Stopwatch {
+public:
+    explicit Stopwatch(bool on_cpu) : on_cpu_(on_cpu) {}
+    template <class Work>
+    double seconds(Work work) {
+        if (on_cpu_) {
+            const double start = process_cpu_seconds();
+            work();
+            glFinish();
+            return process_cpu_seconds() - start;
+        }
+        timers_.begin_frame();
+        {
+            Timers::Scope scope(timers_, "work");
+            work();
+        }
+        return 1e-3 * timers_.collect().at(0).milliseconds;
+    }
+
+private:
+    bool on_cpu_;
+    Timers timers_;
+};
+
 }  // namespace farfield

@@ -32,6 +32,14 @@ public:
     /// serves where rays meet several parts.
     void trace(std::size_t count, bool surfaces, bool counting) const;
 
+    // For measurements: the march alone, of one of the parts, and kernels of their own with the scene in front.
+    std::size_t parts() const { return current_.size(); }
+    std::size_t rays_each(std::size_t part) const { return current_[part].programs->rays_each; }
+    int pause() const { return schedule_.pause; }
+    void march(std::size_t part, std::size_t count, bool any_hit, bool counting) const;
+    std::vector<gl::Program> make_kernels(const char* file) const;  ///< one for each part
+    void run(const gl::Program& kernel, std::size_t part, std::size_t count) const;
+
     int structural_compiles() const { return static_cast<int>(structures_.size()); }
     int other_compiles() const { return compiles_ - structural_compiles(); }
     double last_compile_milliseconds() const { return compile_milliseconds_; }
@@ -43,11 +51,6 @@ private:
         gl::Program march, surface;
     };
     using Cache = std::list<std::shared_ptr<const Entry>>;
-    struct Part {
-        std::shared_ptr<const Entry> programs;
-        gl::Buffer parameters{"parameters"};
-        Box bounds;
-    };
     /// Code of a part, kept as long as scenes have that part, because writing it all anew for each move of a hand takes
     /// milliseconds.
     struct Code {
@@ -56,6 +59,12 @@ private:
         Id tuned;  ///< 0 where it is elsewhere
         bool by_distance;
         GeneratedScene generated;
+    };
+    struct Part {
+        std::shared_ptr<const Entry> programs;
+        std::shared_ptr<const Code> code;
+        gl::Buffer parameters{"parameters"};
+        Box bounds;
     };
     using Codes = std::vector<std::shared_ptr<const Code>>;
     Codes codes(const Scene& scene, Tier tier, Id tuned) const;

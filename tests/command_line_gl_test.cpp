@@ -7,11 +7,13 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <fstream>
 #include <set>
 
 namespace farfield {
@@ -111,6 +113,37 @@ TEST(CommandLine, BenchReportsPassesAndEvaluations) {
     for (const char* word :
          {"compiled in", "frames/s", "camera rays", "far light", "evaluations per ray", "live program"})
         EXPECT_NE(bench.output.find(word), std::string::npos) << word;
+}
+
+TEST(CommandLine, BenchComparesTheTracerWithWhatIsPossible) {
+    const TemporaryFolder folder;
+    const auto file = folder / "bench.json";
+    const Outcome bench = farfield_command(
+        fmt::format("bench {} --size 64x64 --frames 1 --limit --json '{}'", scene("cornell"), file.string()));
+    ASSERT_EQ(bench.status, 0) << bench.output;
+    for (const char* word : {"multiply-adds", "oracle", "plain loop", "shadow of a bounce", "MB per megapixel"})
+        EXPECT_NE(bench.output.find(word), std::string::npos) << word;
+    std::ifstream in(file);
+    const auto json = nlohmann::json::parse(in);
+    const auto &program = json.at("specialised"), &limit = program.at("limit");
+    EXPECT_GT(limit.at("multiply_adds_per_second"), 1e8);
+    std::uint64_t rays = 0;
+    double evaluations = 0.0;
+    for (const auto& kind : limit.at("rays")) {
+        rays += kind.at("rays").get<std::uint64_t>();
+        evaluations += kind.at("rays").get<double>() * kind.at("evaluations_per_ray").get<double>();
+        EXPECT_GE(kind.at("over_oracle"), 1.0) << kind;
+        EXPECT_GT(kind.at("lane_occupancy"), 0.1) << kind;
+        EXPECT_LE(kind.at("lane_occupancy"), 1.0) << kind;
+        EXPECT_GT(kind.at("tracer_over_plain"), 0.0) << kind;
+    }
+    // The census traces the frame's rays, no others; which of a pixel's rays have none of a light depends on the
+    // samples.
+    const auto& counted = program.at("rays");
+    EXPECT_NEAR(static_cast<double>(rays), counted.at("rays").get<double>(), 0.02 * static_cast<double>(rays));
+    EXPECT_NEAR(evaluations, counted.at("evaluations").get<double>(), 0.02 * evaluations);
+    EXPECT_EQ(limit.at("rays")[0].at("rays"), 64 * 64) << "a camera ray for each pixel";
+    EXPECT_EQ(farfield_command("bench " + scene("cornell") + " --json a.txt").status, 2);
 }
 
 TEST(CommandLine, AContactSheetShowsTheKindsAskedFor) {

@@ -107,6 +107,7 @@ class Editor:
 
     def settled(self):
         """Waits for two more pictures, so that what was done before is in the last one."""
+        time.sleep(0.1 + 4e-3 * self.report()["ui_milliseconds"])  # until the last key or click has arrived
         start = self.report()["pictures"]
         return self.wait("two more pictures", lambda r: r["pictures"] >= start + 2)
 

@@ -97,9 +97,11 @@ def the_split_view_compares(editor):
     """Left is what the settings say, right another look; both as they are where nothing is split."""
     revision = editor.report()["revision"]
     editor.key("8")  # depth has no noise
+    editor.wait("depth", lambda r: r["view"] == "Depth")
     editor.settled()
     depth = halves(editor)
     editor.key("7")
+    editor.wait("normals", lambda r: r["view"] == "Normals")
     editor.settled()
     normals = halves(editor)
     check(min(map(changed_fraction, depth, normals)) > 0.2, "the two views differ")
@@ -109,7 +111,7 @@ def the_split_view_compares(editor):
     editor.click("split/view")
     editor.click("split/view/Depth")
     editor.key("Escape")
-    editor.settled()
+    editor.wait("both", lambda r: r["view"] == "Normals" and r["beside"] == "Depth")
     shows(editor, 0, normals, "left of the divider are normals")
     shows(editor, 1, depth, "right of it is depth")
 

@@ -44,6 +44,8 @@ void Report::write(const ReportState& state, double now) {
             {"lines", state.code_lines}, {"selected", state.selected_lines}, {"inside", state.inside_lines}};
     json["typing"] = ImGui::GetIO().WantTextInput;
     json["pictures"] = state.pictures;
+    json["view"] = state.view;
+    json["beside"] = state.beside;
     json["structural_compiles"] = s.structural_compiles;
     json["specialisations"] = s.specialisations;
     json["specialised"] = s.specialised;

@@ -19,6 +19,7 @@ struct ReportState {
     Statistics statistics;
     std::uint64_t revision = 0;    ///< of the document
     std::uint64_t pictures = 0;    ///< shown so far
+    std::string view, beside;      ///< what the last one shows, and on the right side of a split
     double ui_milliseconds = 0.0;  ///< as Ui::frame_milliseconds
     bool saved = true;
     std::string file;    ///< of the document, empty before the first save
