@@ -17,8 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Writes through a temporary file of the same folder and type.
-void write(const fs::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const void* data) {
+/// Rows begin to end - 1, all channels of a pixel together.
+using Rows = std::function<const void*(int begin, int end)>;
+
+/// Writes through a temporary file of the same folder and type, some rows at a time: a large picture has many channels.
+void write(const fs::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const Rows& rows) {
+    constexpr int at_once = 64;
     fs::path temporary = file;
     temporary.replace_filename(fmt::format(".{}.{}{}", file.stem().string(), ::getpid(), file.extension().string()));
     const auto fail = [&](const std::string& why) {
@@ -29,7 +33,10 @@ void write(const fs::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDesc typ
     const auto output = OIIO::ImageOutput::create(temporary.string());
     if (!output) fail(OIIO::geterror());
     if (!output->open(temporary.string(), spec)) fail(output->geterror());
-    if (!output->write_image(type, data)) fail(output->geterror());
+    for (int y = 0; y < spec.height; y += at_once) {
+        const int end = std::min(y + at_once, spec.height);
+        if (!output->write_scanlines(y, end, 0, type, rows(y, end))) fail(output->geterror());
+    }
     if (!output->close()) fail(output->geterror());
     // The PNG writer says nothing of a full disk; a file that can be read has reached it.
     if (OIIO::ImageBuf written(temporary.string());
@@ -73,21 +80,23 @@ void write_exr(const fs::path& file, const std::vector<Layer>& layers, const Att
     spec.attribute("oiio:ColorSpace", "Linear");
     for (const auto& [name, value] : attributes) spec.attribute(name, value);
     spec.channelnames.clear();
-    std::vector<float> data(static_cast<std::size_t>(size.x) * size.y * channels);
-    for (std::size_t layer = 0; layer < layers.size(); ++layer) {
-        const std::string prefix = layers[layer].name.empty() ? "" : layers[layer].name + ".";
-        for (const char* channel : {"R", "G", "B"}) spec.channelnames.push_back(prefix + channel);
-        const std::vector<float>& from = layers[layer].image.pixels;
-        for (std::size_t pixel = 0; pixel < from.size() / 3; ++pixel)
-            std::copy_n(&from[pixel * 3], 3, &data[pixel * channels + layer * 3]);
-    }
-    write(file, spec, OIIO::TypeDesc::FLOAT, data.data());
+    for (const Layer& layer : layers)
+        for (const char* channel : {"R", "G", "B"})
+            spec.channelnames.push_back(layer.name.empty() ? channel : layer.name + "." + channel);
+    std::vector<float> data;
+    write(file, spec, OIIO::TypeDesc::FLOAT, [&](int begin, int end) {
+        data.clear();
+        for (std::size_t i = std::size_t{3} * begin * size.x; i < std::size_t{3} * end * size.x; i += 3)
+            for (const Layer& layer : layers)
+                data.insert(data.end(), &layer.image.pixels[i], &layer.image.pixels[i] + 3);
+        return data.data();
+    });
 }
 
 void write_display(const fs::path& file, glm::ivec2 size, const std::vector<unsigned char>& rgb) {
     OIIO::ImageSpec spec(size.x, size.y, 3, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
-    write(file, spec, OIIO::TypeDesc::UINT8, rgb.data());
+    write(file, spec, OIIO::TypeDesc::UINT8, [&](int begin, int) { return &rgb[std::size_t{3} * begin * size.x]; });
 }
 
 Image read_image(const fs::path& file) {

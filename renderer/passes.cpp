@@ -72,8 +72,7 @@ constexpr std::size_t narrow_level = 2;
 
 }  // namespace
 
-Targets::Targets(glm::ivec2 s)
-    : size(s), mips("far light mips", GL_RGBA32F, s, mip_levels(s)), view("view", GL_RGBA32F, s) {
+Targets::Targets(glm::ivec2 s) : size(s) {
     surfaces.resize(pixels() * surface_bytes);
     for (gl::Buffer* sum :
          {&direct, &geometry, &reflectance, &far_light, &indirect, &occlusion, &split_far, &split_near})
@@ -105,7 +104,7 @@ void Targets::bind() const {
 }
 
 std::size_t Targets::bytes() const {
-    std::size_t sum = mips.bytes() + blurred.bytes() + view.bytes() + guide.bytes();
+    std::size_t sum = mips.bytes() + blurred.bytes() + guide.bytes();
     for (const gl::Buffer* buffer : {&surfaces, &direct, &geometry, &reflectance, &far_light, &indirect, &occlusion,
                                      &split_far, &split_near, &squares})
         sum += buffer->bytes();
@@ -116,8 +115,7 @@ std::size_t Targets::bytes() const {
     add(half_level);
     for (const auto& direction : links)
         for (const gl::Texture& texture : direction) sum += texture.bytes();
-    for (const auto* pair : {&details, &estimates})
-        for (const gl::Texture& texture : *pair) sum += texture.bytes();
+    for (const gl::Texture& texture : estimates) sum += texture.bytes();
     return sum;
 }
 
@@ -225,7 +223,8 @@ void OcclusionPass::run(const Work& work, unsigned sample_index, float radius) c
 }
 
 const gl::Texture& FilterPass::run(Targets& targets, int blur_levels) const {
-    const int level = std::clamp(blur_levels, 0, targets.mips.levels() - 1);
+    const int levels = mip_levels(targets.size), level = std::clamp(blur_levels, 0, levels - 1);
+    if (!targets.mips) targets.mips = gl::Texture("far light mips", GL_RGBA32F, targets.size, levels);
     targets.mips.bind_image(0, GL_WRITE_ONLY);
     start_.run(targets.size);
     if (level == 0) return targets.mips;
@@ -274,7 +273,6 @@ void WaveletPass::make_textures(Targets& targets, std::size_t levels) const {
         make(level.gain, "noise gain", GL_R32F);
     };
     make(targets.guide, "guide");
-    for (gl::Texture& texture : targets.details) make(texture, "detail");
     for (gl::Texture& texture : targets.estimates) make(texture, "estimate");
     for (auto& direction : targets.links)
         for (gl::Texture& texture : direction) make(texture, "links", GL_R32F);
@@ -283,7 +281,7 @@ void WaveletPass::make_textures(Targets& targets, std::size_t levels) const {
     make_level(targets.half_level);
 }
 
-void WaveletPass::smooth(const Targets& targets, std::size_t level, std::size_t direction, const WaveletLevel& source,
+void WaveletPass::smooth(Targets& targets, std::size_t level, std::size_t direction, const WaveletLevel& source,
                          const WaveletLevel& target) const {
     source.far.bind(0);
     source.near.bind(1);
@@ -296,14 +294,14 @@ void WaveletPass::smooth(const Targets& targets, std::size_t level, std::size_t 
     smooth_.draw({&target.far, &target.near, &target.gain, &targets.links[direction][(level + 1) % 2]});
 }
 
-void WaveletPass::shrink(const Targets& targets, std::size_t level) const {
+void WaveletPass::shrink(Targets& targets, std::size_t level) const {
     const WaveletLevel &finer = targets.levels[level > 0 ? level - 1 : 0], &coarsest = targets.levels.back();
     const bool first = level + 1 == targets.levels.size();
     if (first) {
         coarsest.far.bind(0);
         coarsest.near.bind(1);
     } else {
-        targets.details[level % 2].bind(0);
+        targets.detail(level % 2).bind(0);
         targets.estimates[(level + 1) % 2].bind(1);
         targets.guide.bind(2);
         coarsest.near.bind(6);
@@ -317,23 +315,24 @@ void WaveletPass::shrink(const Targets& targets, std::size_t level) const {
     program.set("narrow_level", static_cast<int>(narrow_level));
     const gl::Texture& estimate = targets.estimates[level % 2];
     if (level > 0)
-        program.draw({&estimate, &targets.details[(level + 1) % 2]});
+        program.draw({&estimate, &targets.detail((level + 1) % 2)});
     else
         program.draw({&estimate});
 }
 
-void SynthesisPass::run(const Targets& targets, const gl::Texture& filtered, const gl::Texture* estimate, int view,
+void SynthesisPass::run(Targets& targets, const gl::Texture& filtered, const gl::Texture* estimate, int view,
                         Method method, int frames) const {
+    if (!targets.view()) targets.view() = gl::Texture("picture", GL_RGBA32F, targets.size);
     filtered.bind(0);
     if (estimate) estimate->bind(1);
     program_.set("view", view);
     program_.set("method", static_cast<int>(method));
     program_.set("frames", static_cast<float>(std::max(frames, 1)));
-    program_.draw({&targets.view});
+    program_.draw({&targets.view()});
 }
 
-void DisplayPass::run(const Targets& targets, const gl::Texture& output, int view, float exposure) const {
-    targets.view.bind(0);
+void DisplayPass::run(Targets& targets, const gl::Texture& output, int view, float exposure) const {
+    targets.view().bind(0);
     program_.set("view", view);
     program_.set("exposure", exposure);
     program_.draw({&output});

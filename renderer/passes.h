@@ -29,11 +29,14 @@ struct Targets {
     gl::Buffer surfaces{"surfaces"}, direct{"direct"}, geometry{"geometry"}, reflectance{"reflectance"},
         far_light{"far light"}, indirect{"indirect"}, occlusion{"occlusion"}, split_far{"split far"},
         split_near{"split near"}, squares{"squares"};
-    gl::Texture mips, blurred, view;
+    gl::Texture mips, blurred;         ///< of the paper's filter
     std::vector<WaveletLevel> levels;  ///< the first is unfiltered
     WaveletLevel half_level;           ///< between two: filtered in one direction
     gl::Texture guide, links[2][2];    ///< links to the right and below, of the odd and the even levels
-    gl::Texture details[2], estimates[2];
+    gl::Texture estimates[2];
+    /// What the half level is no longer needed for has its textures: the wavelet's details, then the picture.
+    gl::Texture& detail(std::size_t i) { return i == 0 ? half_level.far : half_level.near; }
+    gl::Texture& view() { return half_level.near; }
 };
 
 /// Buffers for as many rays as one dispatch may have: bounded, so that memory does not grow with the picture and work
@@ -137,29 +140,29 @@ public:
 private:
     void make_textures(Targets& targets, std::size_t levels) const;
     /// Half a level: along rows (direction 0) or columns (1).
-    void smooth(const Targets& targets, std::size_t level, std::size_t direction, const WaveletLevel& source,
+    void smooth(Targets& targets, std::size_t level, std::size_t direction, const WaveletLevel& source,
                 const WaveletLevel& target) const;
-    void shrink(const Targets& targets, std::size_t level) const;
+    void shrink(Targets& targets, std::size_t level) const;
     gl::Program start_ = load_program("wavelet_start.glsl"), links_ = load_program("wavelet_links.glsl"),
                 smooth_ = load_program("wavelet_smooth.glsl"), coarsest_ = load_program("wavelet_coarsest.glsl"),
                 shrink_ = load_program("wavelet_shrink.glsl");
 };
 
-/// Accumulators and filtered light to targets.view, linear.
+/// Accumulators and filtered light to targets.view(), linear.
 class SynthesisPass {
 public:
     /// `estimate` is used by Method::farfield only.
-    void run(const Targets& targets, const gl::Texture& filtered, const gl::Texture* estimate, int view, Method method,
+    void run(Targets& targets, const gl::Texture& filtered, const gl::Texture* estimate, int view, Method method,
              int frames) const;
 
 private:
     gl::Program program_ = load_program("synthesis.glsl");
 };
 
-/// targets.view to an RGBA8 texture of the same size.
+/// targets.view() to an RGBA8 texture of the same size.
 class DisplayPass {
 public:
-    void run(const Targets& targets, const gl::Texture& output, int view, float exposure) const;
+    void run(Targets& targets, const gl::Texture& output, int view, float exposure) const;
 
 private:
     gl::Program program_ = load_program("display.glsl");

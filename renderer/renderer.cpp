@@ -346,7 +346,7 @@ Image Renderer::read(View view) {
     synthesise(look, *filter(look));
     Image image{options_.size, std::vector<float>(targets_->pixels() * 3)};
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
-    targets_->view.bind(0);
+    targets_->view().bind(0);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glGetTexImage(GL_TEXTURE_2D, 0, GL_RGB, GL_FLOAT, image.pixels.data());
     return image;

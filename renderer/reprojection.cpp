@@ -17,7 +17,7 @@ void Reprojection::keep(gl::Texture& light, gl::Texture& guide, float unit, cons
 
 gl::Texture& Reprojection::add(Targets& targets, float samples, float most) const {
     const auto pixels = [](glm::ivec2 size) { return static_cast<float>(size.x) * static_cast<float>(size.y); };
-    gl::Texture& result = targets.details[0];  // which the wavelet needs no more
+    gl::Texture& result = targets.detail(0);  // which the wavelet needs no more
     targets.estimates[0].bind(0);
     targets.guide.bind(1);
     light_.bind(2);

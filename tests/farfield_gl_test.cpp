@@ -281,7 +281,7 @@ TEST_F(Farfield, BlurLevelsAreAsWideInThePapersFilterAsInTheWavelet) {
                       static_cast<int>(View::filtered), method, 1);
         Image image{options_.size, std::vector<float>(3 * side * side)};
         glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
-        targets.view.bind(0);
+        targets.view().bind(0);
         glGetTexImage(GL_TEXTURE_2D, 0, GL_RGB, GL_FLOAT, image.pixels.data());
         double sum = 0.0, squares = 0.0;
         for (int i = 0; i < side * side; ++i) {

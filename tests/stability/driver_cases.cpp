@@ -47,7 +47,7 @@ struct Check {
     }
     void add(const Scene& scene) {
         for (const Tier tier : {Tier::live, Tier::specialised})
-            for (const char* kernel : {"trace.glsl", "surface.glsl"})
+            for (const char* kernel : {"trace.glsl", "surface.glsl", "limit_plain.glsl"})
                 for (const bool by_distance : {false, true})
                     add(scene_kernel_source(kernel, generate(scene, tier, 0, by_distance)));
     }
@@ -63,14 +63,14 @@ std::vector<Point> validated() {
 Figures refused_kernels(const Point& point) {
     Check check;
     if (point.value == -2.0) {
-        // A scene stands before its own two kernels; all others are whole.
+        // A scene stands before its own kernels; all others are whole.
         for (const char* pass :
-             {"bounce.glsl",           "bounce_light.glsl",  "camera.glsl",         "direct.glsl",
-              "display.glsl",          "filter_blur.glsl",   "filter_mip.glsl",     "filter_start.glsl",
-              "gather.glsl",           "gbuffer.glsl",       "hemisphere.glsl",     "light_rays.glsl",
-              "occlusion.glsl",        "reproject.glsl",     "roulette.glsl",       "synthesis.glsl",
-              "wavelet_coarsest.glsl", "wavelet_links.glsl", "wavelet_shrink.glsl", "wavelet_smooth.glsl",
-              "wavelet_start.glsl"})
+             {"bounce.glsl",         "bounce_light.glsl",     "camera.glsl",        "direct.glsl",
+              "display.glsl",        "filter_blur.glsl",      "filter_mip.glsl",    "filter_start.glsl",
+              "gather.glsl",         "gbuffer.glsl",          "hemisphere.glsl",    "light_rays.glsl",
+              "limit_fma.glsl",      "occlusion.glsl",        "reproject.glsl",     "roulette.glsl",
+              "synthesis.glsl",      "wavelet_coarsest.glsl", "wavelet_links.glsl", "wavelet_shrink.glsl",
+              "wavelet_smooth.glsl", "wavelet_start.glsl"})
             check.add(shader_source(pass));
     } else if (point.value == -1.0) {
         for (unsigned seed = 0; seed < 100; ++seed) check.add(random_scene(seed, 30));
