@@ -254,6 +254,7 @@ bool WaveletPass::run(Targets& targets, int blur_levels, const std::function<boo
         if (stop && stop()) return false;
         // Rows first or columns first in turn, so that edges treat both alike.
         smooth(targets, i, i % 2, targets.levels[i], targets.half_level);
+        if (stop && stop()) return false;
         smooth(targets, i, 1 - i % 2, targets.half_level, targets.levels[i + 1]);
     }
     for (std::size_t i = levels + 1; i-- > 0;) {

@@ -77,6 +77,7 @@ struct RenderThread::State {
     std::vector<std::future<void>> writing;  ///< of the thread; each is waited for at the end
 
     // The rest belongs to the thread.
+    bool on_cpu = false;
     std::optional<Renderer> renderer;
     RenderRequest current;
     FrameOptions options;
@@ -188,6 +189,7 @@ void RenderThread::State::run() {
     bool working = false;
     try {
         context->make_current();
+        on_cpu = renders_on_cpu();
         working = true;
     } catch (const std::exception& failure) {
         const std::lock_guard lock(mutex);
@@ -480,7 +482,12 @@ void RenderThread::State::show() {
     else
         slot.other = {};
     const Clock::time_point start = Clock::now();
-    dropped = !renderer->display(slot.texture, slot.other, [this] { return outdated(); });
+    dropped = !renderer->display(slot.texture, slot.other, [this] {
+        if (on_cpu)
+            glFinish();  // or all passes would be drawn before the next frame of the caller: it has the same rasterizer
+        wait_while_drawing();
+        return outdated();
+    });
     unshown = dropped;
     if (dropped) return;
     shown_samples = renderer->statistics().samples;
