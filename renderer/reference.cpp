@@ -25,8 +25,8 @@ int next_portion(const ReferenceHalf& half, int samples) {
 
 /// Whether a shader reads what was accumulated and adds nothing to a reference.
 bool only_shows(std::string_view shader) {
-    return shader.starts_with("wavelet") || shader.starts_with("filter") || shader.starts_with("limit") || shader == "occlusion.glsl" ||
-           shader == "reproject.glsl" || shader == "display.glsl";
+    return shader.starts_with("wavelet") || shader.starts_with("filter") || shader.starts_with("limit") ||
+           shader == "occlusion.glsl" || shader == "reproject.glsl" || shader == "display.glsl";
 }
 
 /// `mean` of `samples` becomes that of `samples` + `more`.
