@@ -2,6 +2,7 @@
 
 #include "app/headless.h"
 #include "renderer/limit.h"
+#include "renderer/sweep_statistics.h"
 #include "sdf/atomic_file.h"
 
 #include <fmt/format.h>
@@ -9,19 +10,12 @@
 
 #include <sys/resource.h>
 
-#include <algorithm>
 #include <chrono>
 
 namespace farfield {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t half = values.size() / 2;
-    return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
 
 double share(double part, double whole) { return whole > 0.0 ? part / whole : 0.0; }
 

@@ -16,8 +16,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
-#include <numeric>
 
 namespace farfield {
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <regex>
 #include <utility>
@@ -53,34 +54,16 @@ std::vector<Scene> local_parts(const Scene& scene, Id tuned) {
     return local_origin(scene.camera) == glm::vec3(0.0f) ? scene_parts(scene) : scene_parts(local_scene(scene, tuned));
 }
 
-/// Turns of loops in one evaluation at most: each loop of ours says how many it has, and may stand in any other.
-/// Nothing where they cannot be told, as in custom code.
-std::optional<double> loop_turns(const Scene& scene, const std::string& code) {
-    static const std::regex any(R"(\bfor\s*\()"),
-        counted(R"(\bfor \(int (cell|i) = 0; \1 < (?:min\(int\(\w+\), )?(\d+)\)?; \+\+\1\))");
-    const auto count = [&](const std::regex& loops) {
-        return std::distance(std::sregex_iterator(code.begin(), code.end(), loops), std::sregex_iterator());
-    };
-    bool custom = false;
-    visit_all_nodes(scene, [&](const Node& node) { custom = custom || node.kind == NodeKind::custom; });
-    const auto all = count(any);
-    if (all == 0) return 0.0;
-    if (custom || all != count(counted)) return std::nullopt;
-    double turns = 1.0;
-    for (std::sregex_iterator loop(code.begin(), code.end(), counted), end; loop != end; ++loop)
-        turns *= 1.0 + std::stod((*loop)[2]);
-    return turns;
-}
-
 /// llvmpipe ends all loops of an invocation once they have come to 65,535 turns together, and with them the rays that
-/// are left. So many rays may share an invocation.
-std::size_t rays_that_share(std::size_t most, const Scene& scene, const GeneratedScene& generated) {
-    constexpr double turns_at_most = 60'000.0;
-    const double evaluations =
-        generated.flat ? 520.0 : 264.0;  // of a ray, and what it waits for others, see trace.glsl
-    const std::optional<double> turns = loop_turns(scene, generated.key);
-    if (!turns) return 1;
-    return std::clamp<std::size_t>(static_cast<std::size_t>(turns_at_most / (evaluations * (2.0 + *turns))), 1, most);
+/// are left. The tracer's own come to 9,000 at most for 16 rays; a ray that evaluates loops 512 times needs an
+/// invocation for itself.
+bool has_loops(std::string_view code) {
+    for (auto at = code.find("for"); at != std::string_view::npos; at = code.find("for", at + 1)) {
+        const auto is_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+        const auto next = code.find_first_not_of(" \t\n", at + 3);
+        if ((at == 0 || !is_name(code[at - 1])) && next != std::string_view::npos && code[next] == '(') return true;
+    }
+    return false;
 }
 
 }  // namespace
@@ -213,7 +196,7 @@ void TracePrograms::compile_march(const Code& code) {
         throw ShaderError(fmt::format("{} live parameters do not fit into this driver's uniform block of {} bytes",
                                       generated.parameters.size(), largest_block));
     gl::Program march = compiled(code, "the scene's trace kernel", "trace.glsl");
-    begun_ = Entry{generated.key, rays_that_share(schedule_.rays_each, code.part, generated), std::move(march), {}};
+    begun_ = Entry{generated.key, has_loops(generated.key) ? 1 : schedule_.rays_each, std::move(march), {}};
 }
 
 /// Of the part that has been begun.

@@ -127,6 +127,25 @@ TEST_F(Render, NoRayIsLostWhereTheDistanceTakesLoops) {
     EXPECT_EQ(std::count(steps.pixels.begin(), steps.pixels.end(), 0.0f), 0) << "rays that were never marched";
 }
 
+/// Nor with few turns for each of many nodes: noise has eight.
+TEST_F(Render, NoRayIsLostWhereManyNodesTakeLoops) {
+    std::string nodes;
+    for (int i = 0; i < 22; ++i)
+        nodes += fmt::format(R"({}{{"kind": "displace_noise", "amplitude": 0.05, "size": 0.2, "octaves": 8,
+                                   "translate": [{}, {}, {}], "children": [{{"kind": "sphere", "radius": 0.5}}]}})",
+                             i == 0 ? "" : ", ", 0.8 * (i % 5 - 2), 0.8 * (i / 5 - 2), 0.4 * (i % 4));
+    const Scene scene = parse_scene(fmt::format(R"({{"farfield": 1,
+        "settings": {{"samples": 1, "bounces": 1}}, "camera": {{"position": [0.3, 0.2, 5], "target": [0.3, 0.2, 0]}},
+        "root": {{"kind": "union", "radius": 0.3, "children": [{}]}}}})",
+                                                nodes),
+                                    "noise");
+    const FrameOptions options{.size = {48, 48}, .counting = true};
+    const Image depth = render(scene, 1, options, View::depth);
+    std::uint64_t rays = 48 * 48;  // and one more from each surface
+    for (std::size_t i = 0; i < depth.pixels.size(); i += 3) rays += depth.pixels[i] > 0.0f;
+    EXPECT_EQ(renderer_->statistics().rays, rays);
+}
+
 TEST_F(Render, AnEditOfALargeSceneCompilesItsOwnPart) {
     Scene scene = bundled("helix");
     render(scene, 1);

@@ -169,7 +169,7 @@ Figures flicker_of_few(Stage& stage, const Point& p) {
 }
 
 /// RMSE of farfield's indirect light in the first picture, of one sample, after eight moves of the camera around its
-/// target by so many degrees, with the past over without; of the room, two seeds.
+/// target by so many degrees, with the past over without; of the room.
 Figures reprojection(Stage& stage, const Point& p) {
     constexpr int moves = 8, seeds = 6;
     constexpr float start = 10.0f;
