@@ -18,12 +18,30 @@ void Buffer::resize(std::size_t bytes) {
     GLuint name = 0;
     glGenBuffers(1, &name);
     handle_ = Handle<BufferTraits>(name);
+    texels_ = {};
     glBindBuffer(GL_SHADER_STORAGE_BUFFER, name);
     glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr, GL_DYNAMIC_COPY);
     glObjectLabel(GL_BUFFER, name, -1, label_.c_str());
     if (glGetError() == GL_OUT_OF_MEMORY)
         throw std::runtime_error(fmt::format("not enough memory for buffer \"{}\" of {} bytes", label_, bytes));
     size_ = bytes;
+}
+
+void Buffer::bind_texels(GLuint unit, GLenum format) const {
+    glActiveTexture(GL_TEXTURE0 + unit);
+    if (!texels_) {
+        GLint most = 0;
+        glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+        if (size_ / 4 > 4 * static_cast<std::size_t>(most))
+            throw std::runtime_error(fmt::format(
+                "buffer \"{}\" of {} bytes is larger than the {} texels that this driver allows", label_, size_, most));
+        GLuint name = 0;
+        glGenTextures(1, &name);
+        texels_ = Handle<TextureTraits>(name);
+        glBindTexture(GL_TEXTURE_BUFFER, name);
+        glTexBuffer(GL_TEXTURE_BUFFER, format, handle_.name());
+    }
+    glBindTexture(GL_TEXTURE_BUFFER, texels_.name());
 }
 
 void Buffer::clear() {
@@ -41,6 +59,22 @@ void Buffer::read(void* data, std::size_t bytes, std::size_t offset) const {
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glBindBuffer(GL_SHADER_STORAGE_BUFFER, handle_.name());
     glGetBufferSubData(GL_SHADER_STORAGE_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
+}
+
+Raster::Raster(std::string label, glm::ivec2 size, int channels)
+    : buffer_(std::move(label)), size_(size), channels_(channels) {
+    buffer_->resize(sizeof(float) * static_cast<std::size_t>(channels) * static_cast<std::size_t>(size.x) *
+                    static_cast<std::size_t>(size.y));
+}
+
+std::vector<float> Raster::read_rgb() const {
+    const auto width = static_cast<std::size_t>(size_.x), rows = static_cast<std::size_t>(size_.y);
+    std::vector<float> rgb(3 * width * rows), row(4 * width);
+    for (std::size_t y = 0; y < rows; ++y) {
+        buffer_->read(row.data(), row.size() * sizeof(float), y * row.size() * sizeof(float));
+        for (std::size_t x = 0; x < width; ++x) std::copy_n(&row[4 * x], 3, &rgb[3 * (y * width + x)]);
+    }
+    return rgb;
 }
 
 Texture::Texture(const std::string& label, GLenum format, glm::ivec2 size, int levels)
@@ -132,33 +166,27 @@ GLint Program::location(const char* name) const {
     return found;
 }
 
-void Program::run(std::size_t count) const {
+void Program::run(std::size_t count, std::size_t layers) const {
     if (count == 0) return;
     use();
-    glDispatchCompute(static_cast<GLuint>((count + 63) / 64), 1, 1);
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    glDispatchCompute(static_cast<GLuint>((count + 63) / 64), static_cast<GLuint>(layers), 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 
 void Program::run(glm::ivec2 size) const {
     use();
-    glDispatchCompute(static_cast<GLuint>((size.x + 7) / 8), static_cast<GLuint>((size.y + 7) / 8), 1);
+    glDispatchCompute(static_cast<GLuint>((size.x + 63) / 64), static_cast<GLuint>(size.y), 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 
-void Program::draw(std::initializer_list<const Texture*> targets) const {
+void Program::draw(const Texture& target) const {
     GLuint framebuffer = 0, vertices = 0;
     glGenFramebuffers(1, &framebuffer);
     glGenVertexArrays(1, &vertices);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glBindVertexArray(vertices);
-    std::vector<GLenum> buffers;
-    for (const Texture* target : targets) {
-        buffers.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(buffers.size()));
-        glFramebufferTexture2D(GL_FRAMEBUFFER, buffers.back(), GL_TEXTURE_2D, target->name(), 0);
-    }
-    glDrawBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
-    const glm::ivec2 size = (*targets.begin())->size();
-    glViewport(0, 0, size.x, size.y);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target.name(), 0);
+    glViewport(0, 0, target.size().x, target.size().y);
     glDisable(GL_DITHER);
     use();
     glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -169,13 +197,16 @@ void Program::draw(std::initializer_list<const Texture*> targets) const {
 
 }  // namespace gl
 
-std::string shader_source(std::string_view name) {
+std::string shader_source(std::string_view name, std::string_view constants) {
     const std::string_view text = embedded_shader(name);
     if (text.empty()) throw std::logic_error(fmt::format("no shader {} is built in", name));
     // A number, not a name, is what core GLSL takes as the file: 1 is common.glsl, 0 the pass's own.
-    return fmt::format("#version 430 core\n#line 1 1\n{}\n#line 1 0\n{}", embedded_shader("common.glsl"), text);
+    return fmt::format("#version 430 core\n{}#line 1 1\n{}\n#line 1 0\n{}", constants, embedded_shader("common.glsl"),
+                       text);
 }
 
-gl::Program load_program(std::string_view name) { return gl::Program(std::string(name), shader_source(name)); }
+gl::Program load_program(std::string_view name, std::string_view constants) {
+    return gl::Program(std::string(name), shader_source(name, constants));
+}
 
 }  // namespace farfield

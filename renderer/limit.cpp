@@ -77,7 +77,7 @@ public:
             std::find_if(limit_.rays.begin(), limit_.rays.end(), [&](const auto& r) { return r.kind == kind; });
         if (found == limit_.rays.end()) found = limit_.rays.insert(found, RayLimit{.kind = kind});
         const auto march = [&](std::size_t part, bool counting) {
-            tracer.march(part, work.count, !needs_surfaces(kind), counting);
+            tracer.march(part, work.rays(), !needs_surfaces(kind), counting);
         };
         counters_.bind_storage(binding::counters);
         CounterRecord counters;
@@ -89,23 +89,23 @@ public:
 
         std::uint64_t evaluations = 0;
         double plain_seconds = 0.0;
-        std::vector<std::uint32_t> before(work.count, 0);
+        std::vector<std::uint32_t> before(work.rays(), 0);
         for (std::size_t part = 0; part < tracer.parts(); ++part) {
             found->march_seconds += watch_.seconds([&] { march(part, false); });
             const std::vector<std::uint32_t> after = steps(work);
-            std::vector<std::uint32_t> own(work.count);
-            for (std::size_t i = 0; i < work.count; ++i) evaluations += own[i] = after[i] - before[i];
+            std::vector<std::uint32_t> own(work.rays());
+            for (std::size_t i = 0; i < work.rays(); ++i) evaluations += own[i] = after[i] - before[i];
             found->lane_evaluations +=
                 lane_slots(own, static_cast<std::size_t>(limit_.lanes), tracer.rays_each(part), tracer.pause());
             before = after;
         }
         for (std::size_t part = 0; part < tracer.parts(); ++part)
-            plain_seconds += watch_.seconds([&] { tracer.run(plain_[part], part, work.count); });
+            plain_seconds += watch_.seconds([&] { tracer.run(plain_[part], part, work.rays()); });
         found->evaluations += evaluations;
         found->oracle_evaluations +=
             static_cast<std::uint64_t>(std::count_if(before.begin(), before.end(), [](auto s) { return s > 0; }));
         found->plain_seconds += plain_seconds * static_cast<double>(evaluations) /
-                                static_cast<double>(work.count * tracer.parts() * plain_evaluations);
+                                static_cast<double>(work.rays() * tracer.parts() * plain_evaluations);
     }
 
 private:
@@ -124,7 +124,7 @@ private:
             std::uint32_t normal, material, steps;
         };
         static_assert(sizeof(HitRecord) == hit_bytes);
-        std::vector<HitRecord> hits(work.count);
+        std::vector<HitRecord> hits(work.rays());
         work.batch.hits.read(hits.data(), hits.size() * hit_bytes);
         std::vector<std::uint32_t> result;
         for (const HitRecord& hit : hits) result.push_back(hit.steps & 0xffffu);

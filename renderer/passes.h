@@ -4,17 +4,13 @@
 
 #include "renderer/gl.h"
 #include "renderer/trace_program.h"
+#include "renderer/wavelet.h"
 #include "sdf/scene.h"
 
 #include <functional>
 #include <vector>
 
 namespace farfield {
-
-/// Far and near light as one level of the wavelet has them, and the share of a pixel's variance that is left.
-struct WaveletLevel {
-    gl::Texture far, near, gain;
-};
 
 /// Accumulators of one resolution; sums over frames, see shaders/common.glsl.
 struct Targets {
@@ -29,14 +25,9 @@ struct Targets {
     gl::Buffer surfaces{"surfaces"}, direct{"direct"}, geometry{"geometry"}, reflectance{"reflectance"},
         far_light{"far light"}, indirect{"indirect"}, occlusion{"occlusion"}, split_far{"split far"},
         split_near{"split near"}, squares{"squares"};
-    gl::Texture mips, blurred;         ///< of the paper's filter
-    std::vector<WaveletLevel> levels;  ///< the first is unfiltered
-    WaveletLevel half_level;           ///< between two: filtered in one direction
-    gl::Texture guide, links[2][2];    ///< links to the right and below, of the odd and the even levels
-    gl::Texture estimates[2];
-    /// What the half level is no longer needed for has its textures: the wavelet's details, then the picture.
-    gl::Texture& detail(std::size_t i) { return i == 0 ? half_level.far : half_level.near; }
-    gl::Texture& view() { return half_level.near; }
+    gl::Texture mips, blurred;  ///< of the paper's filter
+    WaveletRasters wavelet;
+    gl::Raster& view() { return wavelet.scratch.near; }
 };
 
 /// Buffers for as many rays as one dispatch may have: bounded, so that memory does not grow with the picture and work
@@ -59,22 +50,21 @@ struct Work;
 /// Is told of rays before they are traced. May trace them itself, but not change them.
 using RayObserver = std::function<void(const Work& work, RayKind kind)>;
 
-/// A run of pixels, at most Batch::capacity, and what all passes need to work on it.
+/// A run of pixels with one or more samples each, at most Batch::capacity rays, and what all passes need to work on it.
 struct Work {
     const TracePrograms& tracer;
     const Targets& targets;
     const Batch& batch;
     std::size_t first_pixel;
-    std::size_t count;
+    std::size_t pixels;
+    std::size_t samples;  ///< of far light; the rays of one sample of all pixels stand together
     int light_count;
     bool counting;
     const RayObserver& observer;  ///< or none
+    std::size_t rays() const { return pixels * samples; }
 };
 
-/// How far rays look, metres.
-inline constexpr float far_reach = 1e4f;
-
-/// Camera rays and the G-buffer.
+/// Camera rays and the G-buffer; work.samples is 1.
 class CameraPass {
 public:
     void run(const Work& work) const;
@@ -83,7 +73,7 @@ private:
     gl::Program rays_ = load_program("camera.glsl"), gbuffer_ = load_program("gbuffer.glsl");
 };
 
-/// Phong with hard shadows from every light.
+/// Phong with hard shadows from every light; work.samples is 1.
 class DirectPass {
 public:
     void run(const Work& work) const;
@@ -92,24 +82,30 @@ private:
     gl::Program rays_ = load_program("light_rays.glsl"), shade_ = load_program("direct.glsl");
 };
 
-/// One hemisphere ray per pixel, followed over the bounces (after the fourth by Russian roulette), each vertex lit by
+/// Hemisphere rays of every pixel, followed over the bounces (after the fourth by Russian roulette), each vertex lit by
 /// every light; accumulated whole and split by the near weight of `near_radius`, metres.
 class FarLightPass {
 public:
+    /// Samples from `sample_index` on, so many as the work has.
     void run(const Work& work, unsigned sample_index, int bounces, float near_radius) const;
-    /// Mean irradiance / pi after each bounce, on work.count paths that start all over the picture; accumulates
+    /// Mean irradiance / pi after each bounce, on work.rays() paths that start all over the picture; accumulates
     /// nothing.
     std::vector<double> measure(const Work& work, int bounces) const;
 
 private:
-    /// Traces the rays of the batch, adds what the paths meet, and lights it.
-    void follow(const Work& work, bool first) const;
-    gl::Program hemisphere_ = load_program("hemisphere.glsl"), bounce_ = load_program("bounce.glsl"),
-                light_rays_ = load_program("light_rays.glsl"), light_ = load_program("bounce_light.glsl"),
-                roulette_ = load_program("roulette.glsl"), gather_ = load_program("gather.glsl");
+    /// Traces the rays of the batch, adds what the paths meet, and the shadow rays from there. What the last of those
+    /// bring is still to be added.
+    void follow(const Work& work, bool first, bool last) const;
+    /// Adds that and leaves the rays of the next bounce.
+    void go_on(const Work& work, unsigned sample_index, unsigned stream, bool roulette) const;
+    gl::Program hemisphere_ = load_program("hemisphere.glsl"),
+                bounce_ = load_program("bounce.glsl", "#define more_follows 1\n"),
+                last_bounce_ = load_program("bounce.glsl", "#define more_follows 0\n"),
+                next_light_ = load_program("next_light.glsl"), continuation_ = load_program("continuation.glsl"),
+                gather_ = load_program("gather.glsl");
 };
 
-/// One short ray per pixel within the AO radius.
+/// One short ray per pixel within the AO radius; work.samples is 1.
 class OcclusionPass {
 public:
     void run(const Work& work, unsigned sample_index, float radius) const;
@@ -129,31 +125,13 @@ private:
                 blur_ = load_program("filter_blur.glsl");
 };
 
-/// The consistent near/far estimate: à-trous wavelet and James-Stein shrinkage from coarse to fine; see METHOD.md.
-class WaveletPass {
-public:
-    /// One level of the wavelet more than `blur_levels` (0 stays 0): so wide is the paper's filter, see METHOD.md.
-    /// Leaves irradiance / pi in targets.estimates[0] and the coarsest far light in targets.levels.back(). Asks `stop`,
-    /// if there is one, between levels; false when it said so and nothing is there to be shown.
-    bool run(Targets& targets, int blur_levels, const std::function<bool()>& stop) const;
-
-private:
-    void make_textures(Targets& targets, std::size_t levels) const;
-    /// Half a level: along rows (direction 0) or columns (1).
-    void smooth(Targets& targets, std::size_t level, std::size_t direction, const WaveletLevel& source,
-                const WaveletLevel& target) const;
-    void shrink(Targets& targets, std::size_t level) const;
-    gl::Program start_ = load_program("wavelet_start.glsl"), links_ = load_program("wavelet_links.glsl"),
-                smooth_ = load_program("wavelet_smooth.glsl"), coarsest_ = load_program("wavelet_coarsest.glsl"),
-                shrink_ = load_program("wavelet_shrink.glsl");
-};
-
 /// Accumulators and filtered light to targets.view(), linear.
 class SynthesisPass {
 public:
-    /// `estimate` is used by Method::farfield only.
-    void run(Targets& targets, const gl::Texture& filtered, const gl::Texture* estimate, int view, Method method,
-             int frames) const;
+    /// Method::paper takes `blurred`, Method::farfield `filtered` (for the views that show it) and `estimate`; others
+    /// may be null.
+    void run(Targets& targets, const gl::Texture* blurred, const gl::Raster* filtered, const gl::Raster* estimate,
+             int view, Method method, int frames) const;
 
 private:
     gl::Program program_ = load_program("synthesis.glsl");

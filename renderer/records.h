@@ -1,6 +1,8 @@
 // The C++ side of the records and bindings of shaders/common.glsl; a test compares the layouts with the driver's.
 #pragma once
 
+#include "renderer/gl.h"
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -47,12 +49,14 @@ struct LightRecord {
 static_assert(sizeof(LightRecord) == 32);
 
 struct PathRecord {
-    glm::vec3 throughput;
-    float first_hit;
     glm::vec3 radiance;
-    float unused;
+    float first_hit;
+    glm::vec3 pending;
+    float unused1;
+    glm::vec3 throughput;
+    float unused2;
 };
-static_assert(sizeof(PathRecord) == 32);
+static_assert(sizeof(PathRecord) == 48);
 
 struct CounterRecord {
     std::uint32_t rays = 0, steps = 0, exhausted_rays = 0, unused = 0;
@@ -61,12 +65,20 @@ struct CounterRecord {
 inline constexpr std::size_t ray_bytes = 32, hit_bytes = 16, surface_bytes = 32, path_bytes = sizeof(PathRecord),
                              sum_bytes = 16, square_bytes = 4;
 
-/// Binding points of storage buffers, and of uniform buffers.
+/// Binding points of storage buffers, and of uniform buffers. The texture units from first_texels on have the same
+/// buffers as textures, see shaders/common.glsl.
 namespace binding {
+inline constexpr unsigned first_texels = 8;
 inline constexpr unsigned rays = 0, hits = 1, surfaces = 2, paths = 3, materials = 4, lights = 5, direct = 6,
                           geometry = 7, reflectance = 8, far_light = 9, indirect = 10, occlusion = 11, counters = 12,
                           split_far = 13, split_near = 14, squares = 15;
 inline constexpr unsigned frame = 0, parameters = 1;  // of uniform buffers
 }  // namespace binding
+
+/// Storage that kernels write, and the same as a texture that they read.
+inline void bind_records(const gl::Buffer& buffer, unsigned at) {
+    buffer.bind_storage(at);
+    buffer.bind_texels(binding::first_texels + at, at == binding::squares ? GL_R32UI : GL_RGBA32UI);
+}
 
 }  // namespace farfield

@@ -33,6 +33,8 @@ glm::vec2 pixel_offset(int n) {
 /// what adds that much to a few tenths of it.
 constexpr float bounce_threshold = 0.005f;
 constexpr std::size_t measured_paths = 4096;
+/// Of far light: the accumulators are read and written once for so many samples.
+constexpr std::size_t most_samples_together = 16;
 
 void set_camera(FrameRecord& record, const Camera& camera, glm::ivec2 size) {
     const CameraBasis basis(camera);
@@ -151,7 +153,7 @@ void Renderer::keep_past() {
     if (!estimate_) return;
     FrameRecord camera{};
     set_camera(camera, scene_.camera, options_.size);
-    past_.keep(*estimate_, targets_->guide, estimate_unit_, camera);
+    past_.keep(*estimate_, targets_->wavelet.grids[0].guide, estimate_unit_, camera);
 }
 
 void Renderer::discard() {
@@ -172,12 +174,20 @@ void Renderer::restart() {
     statistics_.samples = 0;
 }
 
+std::size_t Renderer::samples_together() const {
+    if (sample_ < 0 || far_samples_ == 0) return 1;  // of a new picture something is to be seen soon
+    const std::size_t most = std::clamp<std::size_t>(batch_size_ / 64, 1, most_samples_together);
+    return std::min(most, static_cast<std::size_t>(frame_samples_ - sample_));
+}
+
 Work Renderer::next_work() const {
+    const std::size_t samples = samples_together();
     return {programs_,
             *targets_,
             batch_,
             first_pixel_,
-            std::min(batch_size_, targets_->pixels() - first_pixel_),
+            std::min(batch_size_ / samples, targets_->pixels() - first_pixel_),
+            samples,
             static_cast<int>(scene_.lights.size()),
             options_.counting,
             observer_};
@@ -207,8 +217,8 @@ bool Renderer::step() {
     frame_.bind_uniform(binding::frame);
     targets_->bind();
     batch_.bind();
-    materials_.bind_storage(binding::materials);
-    lights_.bind_storage(binding::lights);
+    bind_records(materials_, binding::materials);
+    bind_records(lights_, binding::lights);
     counters_.bind_storage(binding::counters);
     const Work w = next_work();
     if (sample_ < 0) {
@@ -223,12 +233,14 @@ bool Renderer::step() {
             Timers::Scope scope(timers_, "far light");
             far_light_pass_.run(w, far_samples_, bounces(), scene_.settings.ao_radius);
         }
+        Work single = w;
+        single.samples = 1;
         for (unsigned ray = 0; ray < occlusion_rays(); ++ray) {
             Timers::Scope scope(timers_, "ambient occlusion");
-            occlusion_pass_.run(w, occlusion_samples_ + ray, scene_.settings.ao_radius);
+            occlusion_pass_.run(single, occlusion_samples_ + ray, scene_.settings.ao_radius);
         }
     }
-    first_pixel_ += w.count;
+    first_pixel_ += w.pixels;
     if (first_pixel_ < targets_->pixels()) return false;
     first_pixel_ = 0;
     if (sample_ < 0) {
@@ -240,12 +252,14 @@ bool Renderer::step() {
             return false;
         }
         statistics_.bounces = bounces();
+        sample_ = 0;
     } else {
-        ++far_samples_;
         occlusion_samples_ += occlusion_rays();
+        far_samples_ += static_cast<unsigned>(w.samples);
+        sample_ += static_cast<int>(w.samples);
         statistics_.samples = static_cast<int>(far_samples_);
     }
-    if (++sample_ < frame_samples_) return false;
+    if (sample_ < frame_samples_) return false;
     finish_frame();
     return true;
 }
@@ -253,7 +267,8 @@ bool Renderer::step() {
 void Renderer::measure_bounces() {
     Timers::Scope scope(timers_, "bounces");
     Work work = next_work();
-    work.count = measured_paths;
+    work.pixels = measured_paths;
+    work.samples = 1;
     work.counting = false;
     const std::vector<double> light = far_light_pass_.measure(work, most_bounces + 1);
     std::vector<float>& shares = statistics_.bounce_shares;
@@ -290,13 +305,16 @@ void Renderer::render_frame() {
     while (!step()) {}
 }
 
-const gl::Texture* Renderer::filter(const Look& look, const std::function<bool()>& stop) {
+bool Renderer::filter(const Look& look, const std::function<bool()>& stop) {
     frame_.bind_uniform(binding::frame);
     targets_->bind();
     estimate_ = nullptr;
-    if (look.method != Method::farfield) return &filter_pass_.run(*targets_, look.blur_levels);
-    if (!wavelet_pass_.run(*targets_, look.blur_levels, stop)) return nullptr;
-    estimate_ = &targets_->estimates[0];
+    if (look.method != Method::farfield) {
+        blurred_ = &filter_pass_.run(*targets_, look.blur_levels);
+        return true;
+    }
+    if (!wavelet_pass_.run(targets_->wavelet, look.blur_levels, stop)) return false;
+    estimate_ = &targets_->wavelet.estimates[0];
     estimate_unit_ = static_cast<float>(far_samples_);
     const int most = Reprojection::pictures * frame_samples_ - static_cast<int>(far_samples_);
     if (most <= 0) past_.drop();
@@ -304,29 +322,32 @@ const gl::Texture* Renderer::filter(const Look& look, const std::function<bool()
         estimate_ = &past_.add(*targets_, estimate_unit_, static_cast<float>(most));
         estimate_unit_ = 1.0f;
     }
-    return &targets_->levels.back().far;
+    return true;
 }
 
-void Renderer::synthesise(const Look& look, const gl::Texture& filtered) {
-    synthesis_pass_.run(*targets_, filtered, estimate_, static_cast<int>(look.view), look.method, completed_cameras_);
+void Renderer::synthesise(const Look& look) {
+    const bool filtered = look.view == View::filtered || look.view == View::direct_filtered;
+    const gl::Raster* far_light = look.method == Method::farfield && filtered
+                                      ? &wavelet_pass_.far_light(targets_->wavelet, look.blur_levels)
+                                      : nullptr;
+    synthesis_pass_.run(*targets_, blurred_, far_light, estimate_, static_cast<int>(look.view), look.method,
+                        completed_cameras_);
 }
 
 bool Renderer::display(const gl::Texture& output, const gl::Texture& other, const std::function<bool()>& stop) {
-    const auto show = [&](const Look& look, const gl::Texture& filtered, const gl::Texture& to) {
-        synthesise(look, filtered);
+    const auto show = [&](const Look& look, const gl::Texture& to) {
+        synthesise(look);
         display_pass_.run(*targets_, to, static_cast<int>(look.view), scene_.settings.exposure);
     };
     const Look own = own_look(options_.view);
-    const gl::Texture* filtered = filter(own, stop);
-    if (!filtered) return false;
-    show(own, *filtered, output);
+    if (!filter(own, stop)) return false;
+    show(own, output);
     if (!options_.other || !other) return true;
     const Look& look = *options_.other;
     const bool same_filter =
         (look.method == Method::farfield) == (own.method == Method::farfield) && look.blur_levels == own.blur_levels;
-    if (!same_filter) filtered = filter(look, stop);
-    if (!filtered) return false;
-    show(look, *filtered, other);
+    if (!same_filter && !filter(look, stop)) return false;
+    show(look, other);
     return true;
 }
 
@@ -343,13 +364,9 @@ std::vector<unsigned char> Renderer::display_pixels() {
 
 Image Renderer::read(View view) {
     const Look look = own_look(view);
-    synthesise(look, *filter(look));
-    Image image{options_.size, std::vector<float>(targets_->pixels() * 3)};
-    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
-    targets_->view().bind(0);
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glGetTexImage(GL_TEXTURE_2D, 0, GL_RGB, GL_FLOAT, image.pixels.data());
-    return image;
+    filter(look);
+    synthesise(look);
+    return {options_.size, targets_->view().read_rgb()};
 }
 
 }  // namespace farfield

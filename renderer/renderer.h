@@ -109,20 +109,23 @@ private:
     void begin_frame();
     void finish_frame();
     Look own_look(View view) const { return {view, scene_.settings.method, scene_.settings.blur_levels}; }
-    /// Far light as the look's method averages it, and `estimate_`; null when `stop` said so.
-    const gl::Texture* filter(const Look& look, const std::function<bool()>& stop = {});
-    void synthesise(const Look& look, const gl::Texture& filtered);
+    /// Makes `estimate_` or, of the paper's method, `blurred_`; false when `stop` said so.
+    bool filter(const Look& look, const std::function<bool()>& stop = {});
+    void synthesise(const Look& look);
     Work next_work() const;
     int bounces() const { return scene_.settings.bounces > 0 ? scene_.settings.bounces : automatic_bounces_; }
     void measure_bounces();
-    /// For each far-light sample. One ray alone answers black or white, so the first sample takes more: a first picture
+    /// Of far light in one piece of work.
+    std::size_t samples_together() const;
+    /// With those: one for each, and three more at first, because one ray alone answers black or white: a first picture
     /// without speckle for a few percent of its time.
     unsigned occlusion_rays() const {
         const auto shows = [](const Look& look) {
             return look.method == Method::paper || look.view == View::occlusion;
         };
         const bool shown = shows(own_look(options_.view)) || (options_.other && shows(*options_.other));
-        return !shown && !options_.occlusion ? 0 : occlusion_samples_ == 0 ? 4 : 1;
+        if (!shown && !options_.occlusion) return 0;
+        return static_cast<unsigned>(samples_together()) + (occlusion_samples_ == 0 ? 3 : 0);
     }
 
     TracePrograms programs_;
@@ -144,15 +147,16 @@ private:
     Scene scene_;
     FrameOptions options_;
     Transport transport_;
-    gl::Texture* estimate_ = nullptr;  ///< of farfield, as filtered last since the last discard
-    float estimate_unit_ = 0.0f;       ///< samples that a w of 1 in it stands for
-    std::uint32_t moves_ = 0;          ///< of the camera since anything else changed: each picture takes other samples
+    gl::Raster* estimate_ = nullptr;        ///< of farfield, as filtered last since the last discard
+    const gl::Texture* blurred_ = nullptr;  ///< of the paper's filter
+    float estimate_unit_ = 0.0f;            ///< samples that a w of 1 in it stands for
+    std::uint32_t moves_ = 0;  ///< of the camera since anything else changed: each picture takes other samples
 
     // The frame being rendered: batch after batch the camera and direct light, then sample after sample the far light.
     bool in_frame_ = false;
     std::size_t batch_size_ = 0;
     std::size_t first_pixel_ = 0;  ///< of the next batch
-    int sample_ = -1;              ///< -1: camera and direct light
+    int sample_ = -1;              ///< of this frame; -1: camera and direct light
     int frame_samples_ = 0;
     int completed_cameras_ = 0;  ///< frames whose camera pass is in the accumulators
     unsigned far_samples_ = 0;   ///< of every pixel since the last discard

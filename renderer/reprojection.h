@@ -14,17 +14,17 @@ public:
     static constexpr int pictures = 8;
 
     explicit operator bool() const { return static_cast<bool>(light_); }
-    /// Takes the textures, of equal size: irradiance / pi, whose w of 1 stands for `unit` samples, and the guide that
+    /// Takes the pictures, of equal size: irradiance / pi, whose w of 1 stands for `unit` samples, and the guide that
     /// belongs to it. Leaves others of that size, or none.
-    void keep(gl::Texture& light, gl::Texture& guide, float unit, const FrameRecord& camera);
+    void keep(gl::Raster& light, gl::Raster& guide, float unit, const FrameRecord& camera);
     void drop() { light_ = {}, guide_ = {}; }
 
-    /// targets.estimates[0], of `samples`, and the past, which counts for `most` samples or fewer. The result's w are
-    /// samples. Needs the frame of the new picture bound.
-    gl::Texture& add(Targets& targets, float samples, float most) const;
+    /// targets.wavelet.estimates[0], of `samples`, and the past, which counts for `most` samples or fewer. The result's
+    /// w are samples. Needs the frame of the new picture bound.
+    gl::Raster& add(Targets& targets, float samples, float most) const;
 
 private:
-    gl::Texture light_, guide_;
+    gl::Raster light_, guide_;
     float unit_ = 0.0f;
     FrameRecord camera_{};  ///< that saw them
     gl::Program program_ = load_program("reproject.glsl");

@@ -31,8 +31,8 @@ std::vector<HitRecord> traced(const Scene& scene, Tier tier, const std::vector<R
     in.upload(std::span(rays));
     out.resize(rays.size() * sizeof(HitRecord));
     counters.resize(sizeof(CounterRecord));
-    in.bind_storage(binding::rays);
-    out.bind_storage(binding::hits);
+    bind_records(in, binding::rays);
+    bind_records(out, binding::hits);
     counters.bind_storage(binding::counters);
     const FrameRecord frame{};
     gl::Buffer frame_buffer("frame");

@@ -9,13 +9,14 @@ uniform uint light_index;
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= ray_count) return;
-    Surface s = surfaces[first_pixel + i];
-    if (s.material == no_surface) return;
-    Ray ray = rays[i];
+    uint pixel = first_pixel + i;
+    Surface s = load_surface(pixel);
+    if (s.material == no_surface || load_hit(i).distance >= 0.0) return;
     Material m = material_of(s.material);
-    vec3 irradiance = irradiance_of(lights[light_index], ray, hits[i], s);
+    vec3 irradiance;
+    Ray ray = shadow_ray(s, load_light(light_index), start_of_seen_shadows, irradiance);
     vec3 view = normalize(camera_position - s.position);
     float highlight = max(dot(reflect(-ray.direction, s.normal), view), 0.0);
     float lobe = m.specular * (m.exponent + 2.0) / (2.0 * PI) * pow(max(highlight, 1e-6), m.exponent);
-    direct_sum[first_pixel + i].rgb += irradiance * (m.albedo / PI + lobe);
+    direct_sum[pixel].rgb = load(direct_texels, pixel).rgb + irradiance * (m.albedo / PI + lobe);
 }

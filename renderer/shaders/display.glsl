@@ -1,6 +1,6 @@
 // Linear view to what a screen shows: exposure, then the sRGB transfer function (IEC 61966-2-1). Normals and occlusion are
 // shown as they are, depth and steps are mapped to grey.
-layout(binding = 0) uniform sampler2D source;
+layout(binding = 0) uniform samplerBuffer source;
 layout(location = 0) out vec4 target;
 
 uniform int view;
@@ -8,7 +8,7 @@ uniform float exposure;  // stops
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
-    vec3 c = texelFetch(source, at, 0).rgb;
+    vec3 c = texelFetch(source, int(index_in(image_size, at))).rgb;
     if (view <= 4) {
         c = clamp(c * exp2(exposure), 0.0, 1.0);
         c = mix(12.92 * c, 1.055 * pow(max(c, 1e-6), vec3(1.0 / 2.4)) - 0.055, step(0.0031308, c));

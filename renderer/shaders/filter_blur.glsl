@@ -1,5 +1,5 @@
 // The blur of the chosen mip level: 5 x 5 binomial, a Gaussian of one texel.
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = 64) in;
 
 layout(binding = 0) uniform sampler2D source;
 layout(binding = 0, rgba32f) writeonly uniform image2D target;

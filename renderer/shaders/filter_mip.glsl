@@ -1,5 +1,5 @@
 // One step of the mip chain: the mean over 2 x 2 texels, three where the finer level has an odd size at its end.
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = 64) in;
 
 layout(binding = 0) uniform sampler2D source;
 layout(binding = 0, rgba32f) writeonly uniform image2D target;

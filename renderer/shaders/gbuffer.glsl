@@ -8,8 +8,8 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= ray_count) return;
     uint pixel = first_pixel + i;
-    Ray ray = rays[i];
-    Hit hit = hits[i];
+    Ray ray = load_ray(i);
+    Hit hit = load_hit(i);
     bool found = hit.distance >= 0.0;
     Surface surface = Surface(vec3(0.0), no_surface, vec3(0.0, 1.0, 0.0), 0.0);
     vec3 emitted = sky(ray.direction);
@@ -20,9 +20,9 @@ void main() {
                           ray.footprint * exp2(minimum_step) * hit.distance);
         emitted = m.emission;
         albedo = m.albedo;
-        geometry_sum[pixel] += vec4(surface.normal, 1.0);
+        geometry_sum[pixel] = load(geometry_texels, pixel) + vec4(surface.normal, 1.0);
     }
     surfaces[pixel] = surface;
-    direct_sum[pixel] += vec4(emitted, max(hit.distance, 0.0));
-    albedo_sum[pixel] += vec4(albedo, float(hit.steps & steps_mask));
+    direct_sum[pixel] = load(direct_texels, pixel) + vec4(emitted, max(hit.distance, 0.0));
+    albedo_sum[pixel] = load(albedo_texels, pixel) + vec4(albedo, float(hit.steps & steps_mask));
 }

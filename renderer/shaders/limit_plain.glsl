@@ -9,7 +9,7 @@ void main() {
     load_parameters();
     uint i = gl_GlobalInvocationID.x;
     if (i >= ray_count) return;
-    Ray ray = rays[i];
+    Ray ray = load_ray(i);
     float t = 0.0, stride = min(ray.reach, 10.0) / float(evaluations);
     int k = 0;
     do {

@@ -7,8 +7,10 @@ uniform uint first_pixel;
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
-    if (i >= ray_count || rays[i].reach <= 0.0) return;
-    float t = hits[i].distance;
-    float near = t < 0.0 ? 0.0 : near_weight(t, rays[i].reach);
-    occlusion_sum[first_pixel + i].xyz += vec3(t < 0.0 ? 1.0 : 0.0, 1.0, near);
+    if (i >= ray_count) return;
+    float reach = load_ray(i).reach, t = load_hit(i).distance;
+    if (reach <= 0.0) return;
+    float near = t < 0.0 ? 0.0 : near_weight(t, reach);
+    uint pixel = first_pixel + i;
+    occlusion_sum[pixel].xyz = load(occlusion_texels, pixel).xyz + vec3(t < 0.0 ? 1.0 : 0.0, 1.0, near);
 }

@@ -12,9 +12,11 @@ const float least_steepness = flat_field ? 0.05 : 0.8;
 void main() {
     load_parameters();
     uint i = gl_GlobalInvocationID.x;
-    if (i >= ray_count || hits[i].distance < 0.0 || hits[i].steps >> part_shift != part) return;
-    Ray ray = rays[i];
-    float t = hits[i].distance;
+    if (i >= ray_count) return;
+    Hit hit = load_hit(i);
+    if (hit.distance < 0.0 || hit.steps >> part_shift != part) return;
+    Ray ray = load_ray(i);
+    float t = hit.distance;
     vec3 p = ray.origin + t * ray.direction;
     float spacing = float_spacing(ray.origin);
     float apart = max(hit_tolerance(ray.footprint * exp2(minimum_step), spacing, t), 4.0 * spacing + 1e-4);

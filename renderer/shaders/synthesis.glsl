@@ -2,36 +2,41 @@
 // Phong plus albedo x ambient occlusion x filtered far light ("ambient occlusion whose ambient colour is the filtered
 // light"). Its product counts near occlusion twice; the reference method uses what was accumulated as it is, and
 // farfield the estimate of the wavelet passes (METHOD.md).
-layout(binding = 0) uniform sampler2D filtered_light;  // premultiplied by w
-layout(binding = 1) uniform sampler2D estimate;
-layout(location = 0) out vec4 target;
+layout(local_size_x = 64) in;
+
+layout(binding = 0) uniform sampler2D paper_light;      // premultiplied by w, as is
+layout(binding = 1) uniform samplerBuffer filtered_light;
+layout(binding = 2) uniform samplerBuffer estimate;
+layout(std430, binding = 0) writeonly buffer Target { vec4 target[]; };
 
 uniform int view;    // enum View of renderer/views.h
 uniform int method;  // enum Method of sdf/scene.h
 uniform float frames;  // accumulated
 
 void main() {
-    ivec2 at = ivec2(gl_FragCoord.xy);
-    int pixel = at.y * image_size.x + at.x;
-    vec4 direct4 = direct_sum[pixel];
+    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(at, image_size))) return;
+    uint pixel = index_in(image_size, at);
+    vec4 direct4 = load(direct_texels, pixel);
     vec3 direct = direct4.rgb / frames;
-    vec4 albedo4 = albedo_sum[pixel];
+    vec4 albedo4 = load(albedo_texels, pixel);
     vec3 albedo = albedo4.rgb / frames;
-    vec4 coarse4 = far_sum[pixel];
+    vec4 coarse4 = load(far_texels, pixel);
     vec3 coarse = coarse4.rgb / max(coarse4.w, 1.0);
-    vec4 filtered4 = textureLod(filtered_light, (vec2(at) + 0.5) / vec2(image_size), 0.0);
+    vec4 filtered4 = method == 1 ? texelFetch(filtered_light, int(pixel))
+                                 : textureLod(paper_light, (vec2(at) + 0.5) / vec2(image_size), 0.0);
     vec3 filtered = filtered4.w > 0.0 ? filtered4.rgb / filtered4.w : vec3(0.0);
-    vec4 occlusion4 = occlusion_sum[pixel];
+    vec4 occlusion4 = load(occlusion_texels, pixel);
     float occlusion = method == 0 && occlusion4.y > 0.0 ? occlusion4.x / occlusion4.y : openness_at(pixel);
-    vec4 indirect4 = indirect_sum[pixel];
-    vec4 geometry = geometry_sum[pixel];
+    vec4 indirect4 = load(indirect_texels, pixel);
+    vec4 geometry = load(geometry_texels, pixel);
     float covered = geometry.w / frames;
 
     vec3 color = vec3(0.0);
     vec3 indirect = indirect4.rgb / max(indirect4.w, 1.0);
     if (method == 0) indirect = albedo * occlusion * filtered;
     // Where a pixel shows several materials the product of means is not the mean of products: the rest is added.
-    if (method == 1) indirect += albedo * texelFetch(estimate, at, 0).rgb - albedo * coarse;
+    if (method == 1) indirect += albedo * texelFetch(estimate, int(pixel)).rgb - albedo * coarse;
     if (view == 0) color = direct + indirect;
     if (view == 1) color = direct;
     if (view == 2) color = coarse * covered;
@@ -41,5 +46,5 @@ void main() {
     if (view == 6) color = geometry.w > 0.0 ? normalize(geometry.xyz + vec3(0.0, 1e-9, 0.0)) * 0.5 + 0.5 : vec3(0.0);
     if (view == 7) color = vec3(geometry.w > 0.0 ? direct4.w / geometry.w : 0.0);
     if (view == 8) color = vec3(albedo4.w / frames);
-    target = vec4(color, 1.0);
+    target[pixel] = vec4(color, 1.0);
 }

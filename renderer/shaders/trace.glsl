@@ -46,8 +46,8 @@ void main() {
         // The next ray that comes near this part.
         do {
             if (!marching && i < end) {
-                ray = rays[i];
-                float met = part > 0u ? hits[i].distance : -1.0;
+                ray = load_ray(i);
+                float met = part > 0u ? load_hit(i).distance : -1.0;
                 footprint = ray.footprint * exp2(minimum_step);
                 spacing = float_spacing(ray.origin);
                 // Where the ray is within the part's bounds.
@@ -106,8 +106,9 @@ void main() {
             bool left_behind = flat_field && slope > 0.0;
             found = found || (exhausted && !left_behind && radius < near_enough * t);
             if (found) t += max(radius, 0.0);
-            float met = part > 0u ? hits[i].distance : -1.0;
-            uint others = part > 0u ? hits[i].steps : 0u;
+            Hit earlier = load_hit(i);  // in another part
+            float met = part > 0u ? earlier.distance : -1.0;
+            uint others = part > 0u ? earlier.steps : 0u;
             bool nearest = found && t < (met < 0.0 ? ray.reach : met);
             hits[i].distance = nearest ? t : met;
             hits[i].steps = min((others & steps_mask) + uint(steps), steps_mask) |

@@ -1,22 +1,22 @@
-// The coarsest estimate, which is the coarsest level of the wavelet, and the detail of the level below.
-layout(binding = 0) uniform sampler2D far_light;
-layout(binding = 1) uniform sampler2D near_light;  // w: variance of a single pixel, averaged as widely as anything
-layout(binding = 3) uniform sampler2D finer_far;
-layout(binding = 4) uniform sampler2D finer_near;
-layout(binding = 5) uniform sampler2D finer_gain;
-layout(binding = 7) uniform sampler2D narrow_far;  // w: openness A, see narrow_level
-layout(location = 0) out vec4 estimate;
-layout(location = 1) out vec4 finer_detail;
+// The coarsest estimate, which is the coarsest level of the wavelet.
+layout(local_size_x = 64) in;
 
+layout(binding = 0) uniform samplerBuffer far_light;
+layout(binding = 1) uniform samplerBuffer near_light;
+layout(binding = 2) uniform samplerBuffer narrow_far;  // w: openness A, see narrow_level
+layout(std430, binding = 0) writeonly buffer Estimate { vec4 estimate[]; };  // w: variance of a single pixel, averaged as widely as anything
+
+uniform ivec2 grid_size;
 uniform int level;
 uniform int narrow_level;  // whose openness is the one in front
+uniform ivec2 narrow_size;
+uniform int narrow_step;   // places of its grid for one of this
 
 void main() {
-    ivec2 at = ivec2(gl_FragCoord.xy);
-    vec4 near = texelFetch(near_light, at, 0);
-    float openness = texelFetch(narrow_far, at, 0).w;
-    vec3 result = wavelet_light(texelFetch(far_light, at, 0), near.rgb, level, narrow_level, openness);
-    estimate = vec4(result, 1.0);
-    finer_detail = wavelet_detail(texelFetch(finer_far, at, 0), texelFetch(finer_near, at, 0), texelFetch(finer_gain, at, 0).r,
-                                  near.w, level - 1, narrow_level, openness, result);
+    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(at, grid_size))) return;
+    uint cell = index_in(grid_size, at);
+    vec4 near = texelFetch(near_light, int(cell));
+    float openness = texelFetch(narrow_far, int(index_in(narrow_size, narrow_step * at))).w;
+    estimate[cell] = vec4(wavelet_light(texelFetch(far_light, int(cell)), near.rgb, level, narrow_level, openness), near.w);
 }

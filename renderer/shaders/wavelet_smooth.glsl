@@ -1,51 +1,59 @@
 // Half a level of the edge-avoiding à-trous wavelet (Dammertz et al. 2010): the B3 spline along rows or columns, on one surface
 // only. Dammertz et al. take its 25 taps at once; two passes of 5 cost half as much and lose 1 %. Far light, openness, near
 // light and the variance of a single pixel get the same weights; noise_gain is how much of that variance is left.
-layout(binding = 0) uniform sampler2D far_source;
-layout(binding = 1) uniform sampler2D near_source;
-layout(binding = 2) uniform sampler2D guide;
-layout(binding = 3) uniform sampler2D gain_source;
-layout(binding = 4) uniform sampler2D links;  // from a tap to the next in this direction, see wavelet_links.glsl
-layout(location = 0) out vec4 far_target;
-layout(location = 1) out vec4 near_target;
-layout(location = 2) out float gain_target;
-layout(location = 3) out float next_links;  // for twice the step
+//
+// The wavelet's steps double with each level, and so do the distances of the places where a level is known from the third on:
+// exactly those places are asked for by what is coarser. The taps are neighbours in the target's grid.
+layout(local_size_x = 64) in;
 
-uniform int step_x;  // from tap to tap, pixels
-uniform int step_y;
-uniform int first;   // 1: nothing has been filtered before
+layout(binding = 0) uniform samplerBuffer far_source;
+layout(binding = 1) uniform samplerBuffer near_source;
+layout(binding = 2) uniform samplerBuffer guide;
+layout(binding = 3) uniform samplerBuffer gain_source;
+layout(binding = 4) uniform samplerBuffer links;  // from a tap to the next in this direction, see wavelet_links.glsl
+layout(std430, binding = 0) writeonly buffer Far { vec4 far_target[]; };
+layout(std430, binding = 1) writeonly buffer Near { vec4 near_target[]; };
+layout(std430, binding = 2) writeonly buffer Gain { float gain_target[]; };
 
-float link(ivec2 tap) {
-    return texelFetch(links, clamp(tap, ivec2(0), image_size - 1), 0).r;
-}
+uniform ivec2 grid_size;
+uniform int spacing;      // pixels from one place of the grid to the next
+uniform ivec2 source_size;
+uniform int source_step;  // places of the source's grid for one of this
+uniform int along_columns;
+uniform int first;        // 1: nothing has been filtered before
 
 void main() {
-    ivec2 at = ivec2(gl_FragCoord.xy);
-    ivec2 one = ivec2(step_x, step_y);
-    vec4 here = texelFetch(guide, at, 0);
+    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(at, grid_size))) return;
+    uint cell = index_in(grid_size, at);
+    int stride = along_columns == 1 ? grid_size.x : 1, source_stride = source_step * (along_columns == 1 ? source_size.x : 1);
+    int place = along_columns == 1 ? at.y : at.x, last = (along_columns == 1 ? grid_size.y : grid_size.x) - 1;
+    int source = int(index_in(source_size, source_step * at));
+    vec4 here = texelFetch(guide, int(cell));
     // The distance of taps from the tangent plane, tangent_distance of common.glsl, is linear in their place but for the depth.
-    float slope = dot(here.xyz, ray_at(at)), change = dot(here.xyz, ray_at(at + one)) - slope;
-    float back = link(at - one), ahead = link(at);
-    float way[5] = float[](min(back, link(at - 2 * one)), back, 1.0, ahead, min(ahead, link(at + one)));
+    ivec2 one = spacing * (along_columns == 1 ? ivec2(0, 1) : ivec2(1, 0));
+    float slope = dot(here.xyz, ray_at(spacing * at)), change = dot(here.xyz, ray_at(spacing * at + one)) - slope;
+    float sharpness = surface_sharpness(here);
+    float back = texelFetch(links, int(cell) - (place >= 1 ? stride : 0)).r, ahead = texelFetch(links, int(cell)).r;
+    float farther_back = texelFetch(links, int(cell) - (place >= 2 ? 2 * stride : 0)).r;
+    float farther_ahead = texelFetch(links, int(cell) + (place < last ? stride : 0)).r;
+    float way[5] = float[](min(back, farther_back), back, 1.0, ahead, min(ahead, farther_ahead));
     const float spline[5] = float[](1.0 / 16.0, 4.0 / 16.0, 6.0 / 16.0, 4.0 / 16.0, 1.0 / 16.0);
     vec4 far = vec4(0.0), near = vec4(0.0);
     float total = 0.0, squares = 0.0;
     for (int k = -2; k <= 2; ++k) {
-        ivec2 tap = at + k * one;
-        bool inside = all(greaterThanEqual(tap, ivec2(0))) && all(lessThan(tap, image_size));
-        tap = clamp(tap, ivec2(0), image_size - 1);
-        vec4 there = texelFetch(guide, tap, 0);
-        float weight = way[k + 2] * spline[k + 2] *
-                       same_surface(here, there, there.w * (slope + float(k) * change) - here.w * slope);
-        weight = inside ? weight : 0.0;
-        far += weight * texelFetch(far_source, tap, 0);
-        near += weight * texelFetch(near_source, tap, 0);
+        bool inside = place + k >= 0 && place + k <= last;
+        int tap = inside ? k : 0;
+        vec4 there = texelFetch(guide, int(cell) + tap * stride);
+        float distance = there.w * (slope + float(k) * change) - here.w * slope;
+        float weight = inside ? way[k + 2] * spline[k + 2] * same_surface(here, there, distance, sharpness) : 0.0;
+        far += weight * texelFetch(far_source, source + tap * source_stride);
+        near += weight * texelFetch(near_source, source + tap * source_stride);
         total += weight;
         squares += weight * weight;
     }
     float scale = total > 0.0 ? 1.0 / total : 0.0;
-    far_target = far * scale;
-    near_target = near * scale;
-    gain_target = (first == 1 ? 1.0 : texelFetch(gain_source, at, 0).r) * squares * scale * scale;
-    next_links = way[4];
+    far_target[cell] = far * scale;
+    near_target[cell] = near * scale;
+    gain_target[cell] = (first == 1 ? 1.0 : texelFetch(gain_source, source).r) * squares * scale * scale;
 }

@@ -65,13 +65,15 @@ Figures refused_kernels(const Point& point) {
     if (point.value == -2.0) {
         // A scene stands before its own kernels; all others are whole.
         for (const char* pass :
-             {"bounce.glsl",         "bounce_light.glsl",     "camera.glsl",        "direct.glsl",
-              "display.glsl",        "filter_blur.glsl",      "filter_mip.glsl",    "filter_start.glsl",
-              "gather.glsl",         "gbuffer.glsl",          "hemisphere.glsl",    "light_rays.glsl",
-              "limit_fma.glsl",      "occlusion.glsl",        "reproject.glsl",     "roulette.glsl",
-              "synthesis.glsl",      "wavelet_coarsest.glsl", "wavelet_links.glsl", "wavelet_shrink.glsl",
-              "wavelet_smooth.glsl", "wavelet_start.glsl"})
+             {"camera.glsl",           "continuation.glsl",  "direct.glsl",         "display.glsl",
+              "filter_blur.glsl",      "filter_mip.glsl",    "filter_start.glsl",   "gather.glsl",
+              "gbuffer.glsl",          "hemisphere.glsl",    "light_rays.glsl",     "next_light.glsl",
+              "limit_fma.glsl",        "occlusion.glsl",     "reproject.glsl",      "synthesis.glsl",
+              "wavelet_coarsest.glsl", "wavelet_links.glsl", "wavelet_shrink.glsl", "wavelet_smooth.glsl",
+              "wavelet_start.glsl"})
             check.add(shader_source(pass));
+        for (const char* constants : {"#define more_follows 0\n", "#define more_follows 1\n"})
+            check.add(shader_source("bounce.glsl", constants));
     } else if (point.value == -1.0) {
         for (unsigned seed = 0; seed < 100; ++seed) check.add(random_scene(seed, 30));
     } else {

@@ -1,0 +1,26 @@
+// What the last shadow rays of a bounce have brought, and the rays from the vertices where paths go on. In the end Russian
+// roulette (Arvo and Kirk, "Particle Transport and Image Synthesis", 1990): a path goes on with the probability of its
+// largest throughput, and then counts as much more, so the mean stays.
+layout(local_size_x = 64) in;
+
+uniform uint pixel_count;
+uniform uint first_pixel;
+uniform uint sample_index;
+uniform uint stream;
+uniform uint roulette_stream;
+uniform int roulette;  // 1: paths may end
+
+void main() {
+    uint k = gl_GlobalInvocationID.x;
+    if (k >= pixel_count) return;
+    uint i = gl_WorkGroupID.y * pixel_count + k;
+    uint pixel = first_pixel + k;
+    uint index = sample_index + gl_WorkGroupID.y;
+    Surface s = load_surface(i);
+    Path path = load_path(i);
+    float survival = roulette == 1 ? min(max(path.throughput.r, max(path.throughput.g, path.throughput.b)), 1.0) : 1.0;
+    bool goes_on = s.material != no_surface && (survival == 1.0 || independent_sample(pixel, index, roulette_stream).x < survival);
+    paths[i].radiance = settled(path, load_hit(i));
+    paths[i].throughput = path.throughput / max(survival, 1e-20);
+    rays[i] = hemisphere_ray(s, independent_sample(pixel, index, stream), goes_on ? far_reach : 0.0);
+}
