@@ -36,4 +36,12 @@ bool renders_on_cpu() {
     return false;
 }
 
+bool has_extension(std::string_view name) {
+    GLint count = 0;
+    glGetIntegerv(GL_NUM_EXTENSIONS, &count);
+    for (GLuint i = 0; i < static_cast<GLuint>(count); ++i)
+        if (reinterpret_cast<const char*>(glGetStringi(GL_EXTENSIONS, i)) == name) return true;
+    return false;
+}
+
 }  // namespace farfield

@@ -4,6 +4,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace farfield {
 
@@ -29,6 +30,8 @@ std::unique_ptr<Context> make_osmesa_context();
 
 /// Whether the current context is one of Mesa's that render on the CPU.
 bool renders_on_cpu();
+/// Of the current context.
+bool has_extension(std::string_view name);
 
 /// Loads OpenGL through `get_address` and checks the version; for the makers of contexts. Throws ContextError.
 void load_gl(void (*(*get_address)(const char*))());

@@ -36,27 +36,20 @@ double multiply_adds_per_second(Stopwatch& watch) {
     return 32.0 * turns * invocations / shortest;
 }
 
-/// Evaluations that lanes have time for when `count` rays with so many steps are shared out as in trace.glsl.
+/// Evaluations that lanes have time for when rays with so many steps are shared out as in trace.glsl.
 std::uint64_t lane_slots(const std::vector<std::uint32_t>& steps, std::size_t lanes, std::size_t rays_each, int pause) {
-    constexpr std::size_t group = 64;
     std::uint64_t slots = 0;
-    std::vector<std::size_t> next(lanes);
-    std::vector<std::uint32_t> left(lanes);
-    for (std::size_t start = 0; start < steps.size(); start += group * rays_each)
-        for (std::size_t first = 0; first < group; first += lanes) {
-            const std::size_t end = std::min(start + group * rays_each, steps.size());
-            for (std::size_t lane = 0; lane < lanes; ++lane) next[lane] = start + first + lane, left[lane] = 0;
-            for (std::uint32_t longest = 1; longest > 0;) {
-                longest = 0;
-                for (std::size_t lane = 0; lane < lanes; ++lane) {
-                    for (; left[lane] == 0 && next[lane] < end; next[lane] += group) left[lane] = steps[next[lane]];
-                    longest = std::max(longest, left[lane]);
-                }
-                longest = std::min(longest, static_cast<std::uint32_t>(pause));
-                for (std::uint32_t& l : left) l -= std::min(l, longest);
-                slots += longest * lanes;
-            }
+    std::vector<std::uint32_t> left(lanes, 0);
+    for (std::size_t next = 0; next < steps.size();) {
+        const std::size_t end = std::min(next + lanes * rays_each, steps.size());
+        for (std::uint32_t longest = 1; longest > 0;) {
+            for (std::uint32_t& l : left)
+                while (l == 0 && next < end) l = steps[next++];
+            longest = std::min(*std::max_element(left.begin(), left.end()), static_cast<std::uint32_t>(pause));
+            for (std::uint32_t& l : left) l -= std::min(l, longest);
+            slots += longest * lanes;
         }
+    }
     return slots;
 }
 
@@ -95,8 +88,8 @@ public:
             const std::vector<std::uint32_t> after = steps(work);
             std::vector<std::uint32_t> own(work.rays());
             for (std::size_t i = 0; i < work.rays(); ++i) evaluations += own[i] = after[i] - before[i];
-            found->lane_evaluations +=
-                lane_slots(own, static_cast<std::size_t>(limit_.lanes), tracer.rays_each(part), tracer.pause());
+            found->lane_evaluations += lane_slots(own, static_cast<std::size_t>(limit_.lanes),
+                                                  tracer.rays_each(part, work.rays()), tracer.pause());
             before = after;
         }
         for (std::size_t part = 0; part < tracer.parts(); ++part)

@@ -34,7 +34,7 @@ public:
 
     // For measurements: the march alone, of one of the parts, and kernels of their own with the scene in front.
     std::size_t parts() const { return current_.size(); }
-    std::size_t rays_each(std::size_t part) const { return current_[part].programs->rays_each; }
+    std::size_t rays_each(std::size_t part, std::size_t count) const;  ///< in a dispatch of `count` rays
     int pause() const { return schedule_.pause; }
     void march(std::size_t part, std::size_t count, bool any_hit, bool counting) const;
     std::vector<gl::Program> make_kernels(const char* file) const;  ///< one for each part
@@ -78,8 +78,9 @@ private:
 
     /// See trace.glsl.
     struct Schedule {
-        std::size_t rays_each;
-        int pause;  ///< evaluations
+        std::size_t rays_each = 1;
+        int pause = 1 << 20;  ///< evaluations
+        bool shares_rays = false;
     };
     Schedule schedule_;
 
@@ -92,7 +93,7 @@ private:
     double compile_milliseconds_ = 0.0;
 };
 
-/// The whole text of a kernel, trace.glsl or surface.glsl, for a generated scene.
-std::string scene_kernel_source(const std::string& file, const GeneratedScene& generated);
+/// The whole text of a kernel, trace.glsl or surface.glsl, for a generated scene. `shares_rays`: see trace.glsl.
+std::string scene_kernel_source(const std::string& file, const GeneratedScene& generated, bool shares_rays = false);
 
 }  // namespace farfield

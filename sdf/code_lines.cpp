@@ -45,6 +45,19 @@ void CodeLines::add_as_it_is(const std::string& in_text, const std::string& in_k
     nodes.insert(nodes.end(), static_cast<std::size_t>(std::count(whole.begin(), whole.end(), '\n')), node);
 }
 
+void CodeLines::add_for_cells(const std::string& indent, const std::string& cells, bool written_out, Id node,
+                              const std::function<std::vector<std::string>(const std::string& cell)>& of) {
+    const auto add_block = [&](const std::string& head, const std::string& cell) {
+        const std::vector<std::string> lines = of(cell);
+        if (lines.size() == 1) return add(indent + head + lines.front(), node);
+        add(indent + head + "{", node);
+        for (const std::string& line : lines) add(indent + "    " + line, node);
+        add(indent + "}", node);
+    };
+    if (!written_out) return add_block(fmt::format("for (int cell = 0; cell < {}; ++cell) ", cells), "cell");
+    for (int cell = 0; cell < std::stoi(cells); ++cell) add_block("", std::to_string(cell));
+}
+
 void CodeLines::append(const CodeLines& other) {
     text += other.text;
     key += other.key;

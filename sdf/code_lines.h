@@ -6,6 +6,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,10 @@ struct CodeLines {
     void add(const std::string& code, Id node = 0, const std::string& comment = {});
     /// Text and key of several lines of the user's own, in which @ means nothing.
     void add_as_it_is(const std::string& in_text, const std::string& in_key, Id node);
+    /// The lines that `of` gives for the number of each of so many cells (a number or an expression): in a loop, or one
+    /// after the other if `written_out`.
+    void add_for_cells(const std::string& indent, const std::string& cells, bool written_out, Id node,
+                       const std::function<std::vector<std::string>(const std::string& cell)>& of);
     void append(const CodeLines& other);
 };
 

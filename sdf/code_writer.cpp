@@ -7,6 +7,20 @@
 #include <utility>
 
 namespace farfield {
+namespace {
+
+constexpr int most_written_out = 16;
+
+/// Nodes in the code once it has been written out; what an instance shows counts as too many.
+int written_nodes(const FieldNode& n) {
+    int sum = n.kind->role == Role::instance ? most_written_out + 1 : 1;
+    for (const FieldNode& child : n.children) sum = std::min(sum + written_nodes(child), most_written_out + 1);
+    return n.kind->role == Role::repeat ? std::min(sum * n.kind->cells(n.values), most_written_out + 1) : sum;
+}
+
+}  // namespace
+
+bool writes_out_cells(const FieldNode& repetition) { return written_nodes(repetition) <= most_written_out; }
 
 CodeLines CodeWriter::custom_functions(std::string& called) {
     CodeLines out{names_};
@@ -338,23 +352,27 @@ Result CodeWriter::repeat(const FieldNode& n, const Numbers& num, const std::str
     }
 
     const std::string d = fmt::format("d{}", id);
-    const std::string loop = fmt::format("{}for (int cell = 0; cell < {}; ++cell)", indent, cells);
-    const std::string place = fmt::format("{}({}{}, cell)", kind.function, p, args);
+    const auto place = [&](const std::string& cell) {
+        return fmt::format("{}({}{}, {})", kind.function, p, args, cell);
+    };
+    const bool written_out = !live && writes_out_cells(n);
     out.add(fmt::format("{}float {} = {};", indent, d, literal(empty_distance)), n.id);
     if (!materials) {
-        out.add(fmt::format("{} {} = min({}, {}({}));", loop, d, d, content, place), n.id);
+        out.add_for_cells(indent, cells, written_out, n.id, [&](const std::string& cell) {
+            return std::vector{fmt::format("{} = min({}, {}({}));", d, d, content, place(cell))};
+        });
         if (n.guarded) out.add(fmt::format("{}{} = {}({}, {}{});", indent, d, kind.guard_nearest, d, p, region), n.id);
         return {d, copy.material};
     }
     const std::string nearest = fmt::format("q{}", id), q = fmt::format("r{}", id),
                       e = fmt::format("e{}", next_child_++);
     out.add(fmt::format("{}vec3 {} = {};", indent, nearest, p), n.id);
-    out.add(loop + " {", n.id);
-    out.add(fmt::format("{}    vec3 {} = {};", indent, q, place), n.id);
-    out.add(fmt::format("{}    float {} = {}({});", indent, e, content, q), n.id);
-    out.add(fmt::format("{}    {} = {} < {} ? {} : {};", indent, nearest, e, d, q, nearest), n.id);
-    out.add(fmt::format("{}    {} = min({}, {});", indent, d, d, e), n.id);
-    out.add(indent + "}", n.id);
+    out.add_for_cells(indent, cells, written_out, n.id, [&](const std::string& cell) {
+        return std::vector{fmt::format("vec3 {} = {};", q, place(cell)),
+                           fmt::format("float {} = {}({});", e, content, q),
+                           fmt::format("{} = {} < {} ? {} : {};", nearest, e, d, q, nearest),
+                           fmt::format("{} = min({}, {});", d, d, e)};
+    });
     if (n.guarded) out.add(fmt::format("{}{} = {}({}, {}{});", indent, d, kind.guard_nearest, d, p, region), n.id);
     const std::string m = fmt::format("m{}", id);
     out.add(fmt::format("{}uint {} = {}({}{});", indent, m, material_of, nearest, in_definition_ ? ", inherited" : ""),

@@ -19,6 +19,10 @@ struct Result {
     bool varies = false;  ///< the material is one: it is not the same everywhere
 };
 
+/// Whether a repetition's few cells stand in the code one after the other: not where they come to more than 16 nodes,
+/// which drivers would compile for long. A program without loops traces more rays at once (renderer/trace_program.cpp).
+bool writes_out_cells(const FieldNode& repetition);
+
 /// Writes the functions of the definitions and of the scene.
 class CodeWriter {
 public:

@@ -197,6 +197,14 @@ std::optional<Box> finite_part(std::vector<const FieldNode*>& path) {
 
 float FieldNode::reach() const {
     if (!kind->reach) return 0.0f;
+    if (kind->kind == NodeKind::union_) {
+        // A fold f(a, b) of the smooth union rises with both and depends on differences otherwise. So what it has after
+        // the others is at least the least child less s, if s = -f(-s before, 0): each adds less than the one before.
+        float sum = 0.0f;
+        for (std::size_t i = 1; i < std::max<std::size_t>(children.size(), 2); ++i)
+            sum = -kind->combine(-sum, 0.0f, values);
+        return sum;
+    }
     const float count = static_cast<float>(std::max<std::size_t>(children.size(), 2) - 1);
     return kind->reach(values) * (kind->role == Role::combine ? count : 1.0f);
 }

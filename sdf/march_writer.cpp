@@ -252,9 +252,10 @@ MarchWriter::March MarchWriter::moved(const FieldNode& n, const std::string& p, 
         functions_.add("}");
         functions_.add("");
         out.add(fmt::format("{}vec2 {} = vec2({});", indent, d, literal(empty_distance)), n.id);
-        out.add(fmt::format("{}for (int cell = 0; cell < {}; ++cell) {} = min({}, {}({}({}{}, cell), {}));", indent,
-                            cells, d, d, content, kind.function, own, args, along),
-                n.id);
+        out.add_for_cells(indent, std::to_string(cells), writes_out_cells(n), n.id, [&](const std::string& cell) {
+            return std::vector{fmt::format("{} = min({}, {}({}({}{}, {}), {}));", d, d, content, kind.function, own,
+                                           args, cell, along)};
+        });
         if (n.guarded)
             out.add(fmt::format("{}{}.x = {}({}.x, {}{});", indent, d, kind.guard_nearest, d, own, region), n.id);
     }

@@ -5,16 +5,18 @@
 // beta = 0.5 saves 23 to 29 % of the evaluations of diffuse rays.
 //
 // Where lanes run in step, as in llvmpipe's eight, all wait for the longest of their rays: shadow rays of the Cornell room
-// took 84 evaluations' time for 25. So an invocation has several rays (`rays_each`), and those whose ray has ended take the
-// next one after every `pause` evaluations (after Aila and Laine, "Understanding the Efficiency of Ray Traversal on GPUs",
-// 2009). One call site: Mesa inlines every call, and each further copy of the scene costs compile time, not speed. Loops
+// took 84 evaluations' time for 25. So they have several rays each (`rays_each`), and those whose ray has ended take the next
+// of all these after every `pause` evaluations (after Aila and Laine, "Understanding the Efficiency of Ray Traversal on
+// GPUs", 2009). One call site: Mesa inlines every call, and each further copy of the scene costs compile time, not speed. Loops
 // end with their conditions: llvmpipe runs a loop that begins with its condition once more, with nothing to do.
 layout(local_size_x = 64) in;
 
 layout(std430, binding = 12) buffer Counters { uint counted_rays; uint counted_steps; uint exhausted_rays; };
 
 uniform uint ray_count;
+#if shares_rays
 uniform uint rays_each;
+#endif
 uniform int pause;
 uniform int counting;        // 1: add to the counters
 uniform uint part;           // which part of the scene this is; 0 is the first
@@ -33,18 +35,33 @@ const float near_enough = 2e-3;  // radians: one to three pixels of a camera ray
 
 void main() {
     load_parameters();
-    uint i = gl_WorkGroupID.x * 64u * rays_each + gl_LocalInvocationID.x;
-    uint end = min(ray_count, (gl_WorkGroupID.x + 1u) * 64u * rays_each);
-    if (i >= end) return;
-
+#if shares_rays
+    // Lanes that run in step take the next of their common rays.
+    uint lanes = gl_SubGroupSizeARB, lane = gl_SubGroupInvocationARB;
+    uint next_ray = (gl_GlobalInvocationID.x - lane) * rays_each;
+    uint end = min(ray_count, next_ray + lanes * rays_each);
+#else
+    uint next_ray = gl_GlobalInvocationID.x;
+    uint end = min(ray_count, next_ray + 1u);
+#endif
     int most_steps = step_limit > 0 ? step_limit : usual_limit;
     Ray ray;
+    uint i;
     float footprint, spacing, reach, t, radius, free, stride, slope;
     int steps;
     bool found, marching = false;
     do {
         // The next ray that comes near this part.
+        bool some_without;
         do {
+            i = marching ? i : next_ray;
+#if shares_rays
+            uint without = unpackUint2x32(ballotARB(!marching)).x;
+            if (!marching) i += uint(bitCount(without & ((1u << lane) - 1u)));
+            next_ray += uint(bitCount(without));
+#else
+            ++next_ray;
+#endif
             if (!marching && i < end) {
                 ray = load_ray(i);
                 float met = part > 0u ? load_hit(i).distance : -1.0;
@@ -73,9 +90,14 @@ void main() {
                         hits[i].steps = 0u;
                     }
                 }
-                if (!marching) i += 64u;
             }
-        } while (!marching && i < end);
+#if shares_rays
+            some_without = unpackUint2x32(ballotARB(!marching)).x != 0u;
+#else
+            some_without = !marching;
+#endif
+        } while (some_without && next_ray < end);
+        bool traced = marching;
         int left = pause;
         do {
             float next = t + stride;
@@ -99,7 +121,7 @@ void main() {
             }
             --left;
         } while (marching && left > 0);
-        if (!marching && i < end) {
+        if (traced && !marching) {
             // Out of steps: a ray that grazes a surface has met it, any other has met nothing. Where it stands now decides;
             // the nearest miss of the whole way would draw fringes around what a ray to the horizon passes.
             bool exhausted = steps >= most_steps && !found && t + free < reach;
@@ -117,7 +139,6 @@ void main() {
                 atomicAdd(counted_steps, uint(steps));
                 if (exhausted) atomicAdd(exhausted_rays, 1u);
             }
-            i += 64u;
         }
-    } while (i < end);
+    } while (marching || next_ray < end);
 }
