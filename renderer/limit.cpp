@@ -69,13 +69,12 @@ public:
         auto found =
             std::find_if(limit_.rays.begin(), limit_.rays.end(), [&](const auto& r) { return r.kind == kind; });
         if (found == limit_.rays.end()) found = limit_.rays.insert(found, RayLimit{.kind = kind});
-        const auto march = [&](std::size_t part, bool counting) {
-            tracer.march(part, work.rays(), !needs_surfaces(kind), counting);
-        };
+        const auto march = [&](std::size_t part) { tracer.march(part, work.rays(), !needs_surfaces(kind)); };
         counters_.bind_storage(binding::counters);
         CounterRecord counters;
         counters_.upload(&counters, sizeof counters);
-        for (std::size_t part = 0; part < tracer.parts(); ++part) march(part, true);
+        for (std::size_t part = 0; part < tracer.parts(); ++part) march(part);
+        tracer.count(work.rays());
         counters_.read(&counters, sizeof counters);
         found->rays += counters.rays;
         found->exhausted += counters.exhausted_rays;
@@ -84,7 +83,7 @@ public:
         double plain_seconds = 0.0;
         std::vector<std::uint32_t> before(work.rays(), 0);
         for (std::size_t part = 0; part < tracer.parts(); ++part) {
-            found->march_seconds += watch_.seconds([&] { march(part, false); });
+            found->march_seconds += watch_.seconds([&] { march(part); });
             const std::vector<std::uint32_t> after = steps(work);
             std::vector<std::uint32_t> own(work.rays());
             for (std::size_t i = 0; i < work.rays(); ++i) evaluations += own[i] = after[i] - before[i];
@@ -120,7 +119,7 @@ private:
         std::vector<HitRecord> hits(work.rays());
         work.batch.hits.read(hits.data(), hits.size() * hit_bytes);
         std::vector<std::uint32_t> result;
-        for (const HitRecord& hit : hits) result.push_back(hit.steps & 0xffffu);
+        for (const HitRecord& hit : hits) result.push_back(hit.steps & 0x7fffu);
         return result;
     }
 

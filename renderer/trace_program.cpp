@@ -111,7 +111,7 @@ std::string scene_kernel_source(const std::string& file, const GeneratedScene& g
 // On a GPU rays are many and lanes need work at once. On llvmpipe 32 to 128 rays and pauses of 3 to 6 evaluations
 // differ by less than 5 %, and 16 rays lose 6 % in the colonnade.
 TracePrograms::TracePrograms() {
-    if (renders_on_cpu() && has_extension("GL_ARB_shader_ballot")) schedule_ = {32, 4, true};
+    if (renders_on_cpu() && has_extension("GL_ARB_shader_ballot")) schedule_ = {64, 4, true};
 }
 
 TracePrograms::Cache::const_iterator TracePrograms::find(const std::string& key) const {
@@ -251,7 +251,7 @@ std::size_t TracePrograms::rays_each(std::size_t part, std::size_t count) const 
     return std::clamp<std::size_t>(count / enough_invocations, 1, current_[part].programs->rays_each);
 }
 
-void TracePrograms::march(std::size_t part, std::size_t count, bool any_hit, bool counting) const {
+void TracePrograms::march(std::size_t part, std::size_t count, bool any_hit) const {
     const auto& [programs, code, parameters, bounds] = current_[part];
     const gl::Program& march = programs->march;
     const std::size_t each = rays_each(part, count);
@@ -259,7 +259,6 @@ void TracePrograms::march(std::size_t part, std::size_t count, bool any_hit, boo
     march.set("ray_count", static_cast<unsigned>(count));
     if (schedule_.shares_rays) march.set("rays_each", static_cast<unsigned>(each));
     march.set("pause", schedule_.pause);
-    march.set("counting", counting ? 1 : 0);
     march.set("part", static_cast<unsigned>(part));
     march.set("any_hit", any_hit ? 1 : 0);
     march.set("scene_low", bounds.low);
@@ -267,8 +266,14 @@ void TracePrograms::march(std::size_t part, std::size_t count, bool any_hit, boo
     march.run((count + each - 1) / each);
 }
 
+void TracePrograms::count(std::size_t rays) const {
+    count_.set("ray_count", static_cast<unsigned>(rays));
+    count_.run(rays);
+}
+
 void TracePrograms::trace(std::size_t count, bool surfaces, bool counting) const {
-    for (std::size_t part = 0; part < current_.size(); ++part) march(part, count, !surfaces, counting);
+    for (std::size_t part = 0; part < current_.size(); ++part) march(part, count, !surfaces);
+    if (counting) this->count(count);
     for (std::size_t part = 0; surfaces && part < current_.size(); ++part) {
         const gl::Program& surface = current_[part].programs->surface;
         surface.set("part", static_cast<unsigned>(part));

@@ -36,7 +36,8 @@ public:
     std::size_t parts() const { return current_.size(); }
     std::size_t rays_each(std::size_t part, std::size_t count) const;  ///< in a dispatch of `count` rays
     int pause() const { return schedule_.pause; }
-    void march(std::size_t part, std::size_t count, bool any_hit, bool counting) const;
+    void march(std::size_t part, std::size_t count, bool any_hit) const;
+    void count(std::size_t rays) const;                             ///< what they took, into the bound counters
     std::vector<gl::Program> make_kernels(const char* file) const;  ///< one for each part
     void run(const gl::Program& kernel, std::size_t part, std::size_t count) const;
 
@@ -83,6 +84,7 @@ private:
         bool shares_rays = false;
     };
     Schedule schedule_;
+    gl::Program count_ = load_program("count.glsl");
 
     mutable std::vector<Codes> codes_;  ///< of the last calls
     Cache cache_;                       ///< most recently used first

@@ -140,6 +140,16 @@ bool MarchWriter::is_convex_pair(const FieldNode& n) const {
            std::all_of(n.children.begin(), n.children.end(), is_convex);
 }
 
+bool MarchWriter::blends_primitives(const FieldNode& n) const {
+    const auto is_convex = [](const FieldNode& c) { return c.kind->along != nullptr; };
+    const auto is_held = [&](const FieldNode& c) {
+        return c.kind->role == Role::primitive && !block_.is_live(c) && (is_convex(c) || has_box(c, 0.0f));
+    };
+    return n.kind->kind == NodeKind::union_ && n.values[0].x > 0.0f && !block_.is_live(n) &&
+           std::any_of(n.children.begin(), n.children.end(), is_convex) &&
+           std::all_of(n.children.begin(), n.children.end(), is_held);
+}
+
 MarchWriter::Group MarchWriter::begin(const FieldNode& n, const std::string& p, const std::string& v, CodeLines& out) {
     const int id = next_group_++;
     out.add(indent, n.id, comment(n));
@@ -201,6 +211,34 @@ void MarchWriter::fold(const FieldNode& n, const Numbers& num, const std::string
     }
 }
 
+void MarchWriter::blend(const FieldNode& n, const Group& group, float level, CodeLines& out) {
+    const auto& [id, num, own, turned, d] = group;
+    const float fill = n.reach(), radius = n.values[0].x;
+    const std::string levels = literal(glm::vec3(level, level + fill, level + fill + radius)),
+                      ways = fmt::format("w{}", id);
+    for (const FieldNode& child : n.children) {
+        const bool first = &child == &n.children[0];
+        const bool convex = child.kind->along;
+        const std::string shape = convex ? tangent(child, own, turned) : node(child, own, out, indent).distance;
+        std::string e = d;
+        if (!first) e = fmt::format("e{}", next_child_++);
+        out.add(convex ? fmt::format("{}vec2 {} = {};", indent, e, shape)
+                       : fmt::format("{}vec2 {} = vec2({}, 0.0);", indent, e, shape),
+                child.id, comment(child));
+        const Box& box = child.extent.box;
+        const std::string to = convex ? fmt::format("ways_to({}, {})", e, levels)
+                                      : fmt::format("ways_to_box({}.x, {}, {} - {}, {}, {})", e, levels, own,
+                                                    literal(box.centre()), turned, literal(0.5f * box.size()));
+        if (first) {
+            out.add(fmt::format("{}vec4 {} = vec4({}, {});", indent, ways, to, literal(empty_distance)), child.id);
+        } else {
+            out.add(fmt::format("{}{} = nearer_ways({}, {});", indent, ways, ways, to), child.id);
+            out.add(fmt::format("{}{}.x = {};", indent, d, combination(*n.kind, num, d + ".x", e + ".x")), child.id);
+        }
+    }
+    out.add(fmt::format("{}{}.y = way_to_blend({});", indent, d, ways), n.id);
+}
+
 MarchWriter::March MarchWriter::group(const FieldNode& n, const std::string& p, const std::string& v, float level,
                                       CodeLines& out) {
     const KindInfo& kind = *n.kind;
@@ -213,6 +251,10 @@ MarchWriter::March MarchWriter::group(const FieldNode& n, const std::string& p, 
                             tangent(n.children[1], own, turned), num.arguments, literal(level / n.scale)),
                 n.children[1].id, comment(n.children[1]));
         return end(n, group, level, true, out);
+    }
+    if (blends_primitives(n)) {
+        blend(n, group, level / n.scale, out);
+        return end(n, group, level, false, out);
     }
     fold(n, num, d, own, turned, level / n.scale + n.reach(), out);
     if (kind.role == Role::distance)
@@ -280,9 +322,12 @@ bool MarchWriter::any_child_gains(const FieldNode& n, float below) const {
 bool MarchWriter::knows_stay(const FieldNode& n, float level) const {
     if (block_.is_live(n) && level != 0.0f) return false;
     if (n.kind->role == Role::primitive) return n.kind->within;
-    return n.kind->role == Role::combine && adds(*n.kind) &&
-           std::any_of(n.children.begin(), n.children.end(),
-                       [&](const FieldNode& c) { return knows_stay(c, level / n.scale); });
+    // In a row of copies: inside one of them, which stand still as the ray goes on.
+    const bool adds_up = n.kind->role == Role::combine
+                             ? adds(*n.kind)
+                             : n.kind->role == Role::repeat && is_straight(n) && !n.guarded && writes_out_cells(n);
+    return adds_up && std::any_of(n.children.begin(), n.children.end(),
+                                  [&](const FieldNode& c) { return knows_stay(c, level / n.scale); });
 }
 
 std::string MarchWriter::stay(const FieldNode& n, const std::string& p, const std::string& v, float level) {
@@ -292,11 +337,18 @@ std::string MarchWriter::stay(const FieldNode& n, const std::string& p, const st
         return fmt::format("{}{}({}, {}, {}{})", own.factor, n.kind->within, own.point, turned,
                            literal(level / n.scale), own.arguments);
     std::string longest;
-    for (const FieldNode& child : n.children) {
-        if (!knows_stay(child, level / n.scale)) continue;
-        const std::string next = stay(child, "(" + own.point + ")", turned, level / n.scale);
-        longest = longest.empty() ? next : fmt::format("max({}, {})", longest, next);
-    }
+    const auto add_children = [&](const std::string& at) {
+        for (const FieldNode& child : n.children) {
+            if (!knows_stay(child, level / n.scale)) continue;
+            const std::string next = stay(child, at, turned, level / n.scale);
+            longest = longest.empty() ? next : fmt::format("max({}, {})", longest, next);
+        }
+    };
+    if (n.kind->role == Role::repeat)
+        for (int cell = 0; cell < n.kind->cells(n.values); ++cell)
+            add_children(fmt::format("{}({}{}{}, {})", n.kind->function, own.point, own.arguments, own.derived, cell));
+    else
+        add_children("(" + own.point + ")");
     return own.factor + longest;
 }
 

@@ -41,6 +41,12 @@ private:
         std::string value;
         bool named = false;
     };
+    /// A node with children: point and direction in its own frame, and the variable of both its numbers.
+    struct Group {
+        int id;
+        Numbers numbers;
+        std::string p, v, d;
+    };
     March march(const FieldNode& n, const std::string& p, const std::string& v, float level, CodeLines& out);
     March plain(const FieldNode& n, const std::string& p, const std::string& v, float level, CodeLines& out);
     /// Of a convex primitive: the distance and its slope.
@@ -49,17 +55,15 @@ private:
     March group(const FieldNode& n, const std::string& p, const std::string& v, float level, CodeLines& out);
     /// Two convex primitives in a smooth union.
     bool is_convex_pair(const FieldNode& n) const;
+    /// Primitives in a smooth union, some of them convex, all of them with a slope or a box.
+    bool blends_primitives(const FieldNode& n) const;
+    /// Those, in the variable `d` that this declares.
+    void blend(const FieldNode& n, const Group& group, float level, CodeLines& out);
     /// What moves the ray in space and leaves it straight for a while.
     March moved(const FieldNode& n, const std::string& p, const std::string& v, float level, CodeLines& out);
     /// The children together, in the variable `d` that this declares.
     void fold(const FieldNode& n, const Numbers& num, const std::string& d, const std::string& p, const std::string& v,
               float below, CodeLines& out);
-    /// A node with children: point and direction in its own frame, and the variable of both its numbers.
-    struct Group {
-        int id;
-        Numbers numbers;
-        std::string p, v, d;
-    };
     Group begin(const FieldNode& n, const std::string& p, const std::string& v, CodeLines& out);
     /// Brings both numbers to the parent's frame. A distance is always a way that is free: unless that is sure, as
     /// `knows_distance` says, it is put in.

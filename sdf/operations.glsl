@@ -590,6 +590,26 @@ vec2 smooth_union_advance(vec2 a, vec2 b, float radius, float level) {
     return vec2(d, max(d - level, abs(apart.x + min(hard, 1e9f) * apart.y) >= radius ? hard : blended));
 }
 
+// How far a ray gets before a convex shape is as near as three levels, and a shape that a box holds.
+vec3 ways_to(vec2 along, vec3 levels) {
+    return max(vec3(along.x) - levels, vec3(0.0f)) / max(-along.y, 1e-20f);
+}
+
+vec3 ways_to_box(float d, vec3 levels, vec3 p, vec3 v, vec3 half_size) {
+    return max(vec3(d) - levels, ways_to(box_along(p, v, half_size), levels));
+}
+
+// Of several shapes in a smooth union, from the ways of each to the level, to that and what the union adds, and to a radius
+// more: the least of each, and the second least of the last.
+vec4 nearer_ways(vec4 least, vec3 ways) {
+    return vec4(min(least.x, ways.x), min(least.y, ways.y), min(least.z, ways.z), min(least.w, max(least.z, ways.z)));
+}
+
+// The union comes down to the level where one of its shapes does, or two are as near as to blend.
+float way_to_blend(vec4 least) {
+    return max(least.y, min(least.x, least.w));
+}
+
 // From the distance and the box that holds the shape, seen from its centre.
 vec2 advance_in_box(float d, float level, vec3 p, vec3 v, vec3 half_size) {
     vec2 to_box = box_along(p, v, half_size);

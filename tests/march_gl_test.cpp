@@ -174,6 +174,57 @@ TEST_F(March, FindsWhatTinyStepsFindOfConvexShapes) {
     }
 }
 
+/// Primitives of all kinds, three to five of them blended together, scaled, and within another blend.
+TEST_F(March, FindsWhatTinyStepsFindOfManyBlendedTogether) {
+    std::vector<NodeKind> primitives;
+    for (const KindInfo& kind : node_kinds())
+        if (kind.role == Role::primitive && !kind.flat && kind.kind != NodeKind::custom &&
+            kind.kind != NodeKind::mandelbulb)
+            primitives.push_back(kind.kind);
+    for (unsigned seed = 0; seed < 8; ++seed) {
+        std::mt19937 random(seed);
+        const auto uniform = [&](float low, float high) {
+            return low + (high - low) * static_cast<float>(random() >> 8) * 0x1p-24f;
+        };
+        Node blend = make_node(NodeKind::union_);
+        blend.values[0].x = uniform(0.02f, 0.4f);
+        blend.transform = {{0.1f, 0.0f, 0.0f}, {0.0f, 30.0f, 0.0f}, 0.8f};
+        for (unsigned i = 0; i < 3 + seed % 3; ++i) {
+            Node child = make_node(i == 0 ? NodeKind::sphere : primitives[random() % primitives.size()]);
+            child.transform = {{uniform(-0.7f, 0.7f), uniform(-0.7f, 0.7f), uniform(-0.7f, 0.7f)},
+                               {uniform(0.0f, 360.0f), uniform(0.0f, 360.0f), uniform(0.0f, 360.0f)},
+                               uniform(0.2f, 0.6f)};
+            blend.children.push_back(child);
+        }
+        Node outer = make_node(NodeKind::union_);
+        outer.values[0].x = 0.15f;
+        outer.children = {blend, ball()};
+        for (const Node& node : {blend, outer}) {
+            Scene scene;
+            apply(scene, InsertNode{scene.root.id, -1, node});
+            expect_no_difference(scene, Tier::specialised, fmt::format("blend {}", seed), 12, 20);
+        }
+    }
+}
+
+TEST_F(March, FindsWhatTinyStepsFindOfRowsTakenAway) {
+    for (const float spacing : {0.35f, 0.5f, 0.8f}) {
+        Node bore = make_node(NodeKind::capped_cylinder), row = make_node(NodeKind::repeat),
+             part = make_node(NodeKind::subtract);
+        bore.values[0].x = 0.2f;
+        bore.transform.rotate = {90.0f, 0.0f, 0.0f};
+        row.values[0] = {spacing, 0.0f, 0.0f};
+        row.values[1] = {3.0f, 1.0f, 1.0f};
+        row.transform.rotate = {0.0f, 0.0f, 20.0f};
+        row.children = {bore};
+        part.values[0].x = 0.03f;
+        part.children = {beam(), row};
+        Scene scene;
+        apply(scene, InsertNode{scene.root.id, -1, part});
+        expect_no_difference(scene, Tier::specialised, fmt::format("spacing {}", spacing), 12);
+    }
+}
+
 TEST_F(March, FindsWhatTinyStepsFindOfCustomCode) {
     const std::pair<const char*, const char*> codes[] = {
         {"a gyroid",

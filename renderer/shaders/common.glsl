@@ -33,7 +33,8 @@ struct Hit {
     uint material;   // code of blend_materials
     uint steps;      // lower bits: distance evaluations of the march; upper ones: the part of the scene that was hit
 };
-const uint steps_mask = 0xffffu;
+const uint steps_mask = 0x7fffu;
+const uint exhausted_flag = 0x8000u;  // a march ran out of steps
 const int part_shift = 16;
 
 const uint no_surface = 0xffffffffu;

@@ -11,14 +11,11 @@
 // end with their conditions: llvmpipe runs a loop that begins with its condition once more, with nothing to do.
 layout(local_size_x = 64) in;
 
-layout(std430, binding = 12) buffer Counters { uint counted_rays; uint counted_steps; uint exhausted_rays; };
-
 uniform uint ray_count;
 #if shares_rays
 uniform uint rays_each;
 #endif
 uniform int pause;
-uniform int counting;        // 1: add to the counters
 uniform uint part;           // which part of the scene this is; 0 is the first
 uniform int any_hit;         // 1: a ray that met an earlier part looks for nothing more
 uniform vec3 scene_low;      // all surfaces lie within this box
@@ -83,12 +80,9 @@ void main() {
                 steps = 0;
                 found = false;
                 marching = t < reach;
-                if (part == 0u) {
-                    if (counting == 1 && ray.reach > 0.0) atomicAdd(counted_rays, 1u);
-                    if (!marching) {
-                        hits[i].distance = -1.0;
-                        hits[i].steps = 0u;
-                    }
+                if (part == 0u && !marching) {
+                    hits[i].distance = -1.0;
+                    hits[i].steps = 0u;
                 }
             }
 #if shares_rays
@@ -133,12 +127,8 @@ void main() {
             uint others = part > 0u ? earlier.steps : 0u;
             bool nearest = found && t < (met < 0.0 ? ray.reach : met);
             hits[i].distance = nearest ? t : met;
-            hits[i].steps = min((others & steps_mask) + uint(steps), steps_mask) |
-                            (nearest ? part << part_shift : others & ~steps_mask);
-            if (counting == 1) {
-                atomicAdd(counted_steps, uint(steps));
-                if (exhausted) atomicAdd(exhausted_rays, 1u);
-            }
+            hits[i].steps = min((others & steps_mask) + uint(steps), steps_mask) | (exhausted ? exhausted_flag : others & exhausted_flag) |
+                            (nearest ? part : others >> part_shift) << part_shift;
         }
     } while (marching || next_ray < end);
 }

@@ -65,15 +65,17 @@ Figures refused_kernels(const Point& point) {
     if (point.value == -2.0) {
         // A scene stands before its own kernels; all others are whole.
         for (const char* pass :
-             {"camera.glsl",           "continuation.glsl",  "direct.glsl",         "display.glsl",
-              "filter_blur.glsl",      "filter_mip.glsl",    "filter_start.glsl",   "gather.glsl",
-              "gbuffer.glsl",          "hemisphere.glsl",    "light_rays.glsl",     "next_light.glsl",
-              "limit_fma.glsl",        "occlusion.glsl",     "reproject.glsl",      "synthesis.glsl",
-              "wavelet_coarsest.glsl", "wavelet_links.glsl", "wavelet_shrink.glsl", "wavelet_smooth.glsl",
-              "wavelet_start.glsl"})
+             {"camera.glsl",         "continuation.glsl",     "count.glsl",         "direct.glsl",
+              "display.glsl",        "filter_blur.glsl",      "filter_mip.glsl",    "filter_start.glsl",
+              "gather.glsl",         "gbuffer.glsl",          "hemisphere.glsl",    "light_rays.glsl",
+              "limit_fma.glsl",      "next_light.glsl",       "occlusion.glsl",     "reproject.glsl",
+              "synthesis.glsl",      "wavelet_coarsest.glsl", "wavelet_halve.glsl", "wavelet_links.glsl",
+              "wavelet_refine.glsl", "wavelet_smooth.glsl",   "wavelet_start.glsl"})
             check.add(shader_source(pass));
-        for (const char* constants : {"#define more_follows 0\n", "#define more_follows 1\n"})
-            check.add(shader_source("bounce.glsl", constants));
+        for (const char* more : {"#define more_follows 0\n", "#define more_follows 1\n"})
+            check.add(shader_source("bounce.glsl", more));
+        for (const char* detail : {"#define leaves_detail 0\n", "#define leaves_detail 1\n"})
+            check.add(shader_source("wavelet_shrink.glsl", detail));
     } else if (point.value == -1.0) {
         for (unsigned seed = 0; seed < 100; ++seed) check.add(random_scene(seed, 30));
     } else {
