@@ -77,7 +77,6 @@ struct RenderThread::State {
     std::vector<std::future<void>> writing;  ///< of the thread; each is waited for at the end
 
     // The rest belongs to the thread.
-    bool on_cpu = false;
     std::optional<Renderer> renderer;
     RenderRequest current;
     FrameOptions options;
@@ -189,7 +188,6 @@ void RenderThread::State::run() {
     bool working = false;
     try {
         context->make_current();
-        on_cpu = renders_on_cpu();
         working = true;
     } catch (const std::exception& failure) {
         const std::lock_guard lock(mutex);
@@ -483,8 +481,6 @@ void RenderThread::State::show() {
         slot.other = {};
     const Clock::time_point start = Clock::now();
     dropped = !renderer->display(slot.texture, slot.other, [this] {
-        if (on_cpu)
-            glFinish();  // or all passes would be drawn before the next frame of the caller: it has the same rasterizer
         wait_while_drawing();
         return outdated();
     });
