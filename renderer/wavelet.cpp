@@ -36,9 +36,11 @@ bool WaveletPass::run(WaveletRasters& rasters, int blur_levels, const std::funct
     for (std::size_t i = 0; i < levels; ++i) {
         // Rows first or columns first in turn, so that edges treat both alike.
         if (stop && stop()) return false;
-        smooth(rasters, i, i % 2 == 1, rasters.levels[i], rasters.grid_of(i), rasters.scratch);
+        const WaveletLevel &level = rasters.levels[i], &next = rasters.levels[i + 1];
+        if (i > 0) restrict_level(rasters, i, next);
+        smooth(rasters, i, i % 2 == 1, i > 0 ? next : level, rasters.scratch);
         if (stop && stop()) return false;
-        smooth(rasters, i, i % 2 == 0, rasters.scratch, rasters.grid_of(i + 1), rasters.levels[i + 1]);
+        smooth(rasters, i, i % 2 == 0, rasters.scratch, next);
     }
     const WaveletLevel& coarsest = rasters.levels[levels];
     coarsest.far.bind(0);
@@ -102,8 +104,25 @@ void WaveletPass::make_grids(WaveletRasters& rasters, std::size_t levels) const 
     }
 }
 
+void WaveletPass::restrict_level(WaveletRasters& rasters, std::size_t level, const WaveletLevel& target) const {
+    const WaveletLevel& source = rasters.levels[level];
+    const WaveletGrid& fine = rasters.grid_of(level);
+    source.far.bind(0);
+    source.near.bind(1);
+    source.gain.bind(2);
+    fine.right.bind(3);
+    fine.below.bind(4);
+    target.far.bind_target(0);
+    target.near.bind_target(1);
+    target.gain.bind_target(2);
+    const glm::ivec2 size = rasters.grid_of(level + 1).size;
+    restrict_.set("grid_size", size);
+    restrict_.set("source_size", fine.size);
+    restrict_.run(size);
+}
+
 void WaveletPass::smooth(WaveletRasters& rasters, std::size_t level, bool along_columns, const WaveletLevel& source,
-                         const WaveletGrid& source_grid, const WaveletLevel& target) const {
+                         const WaveletLevel& target) const {
     const WaveletGrid& grid = rasters.grid_of(level + 1);
     source.far.bind(0);
     source.near.bind(1);
@@ -115,8 +134,6 @@ void WaveletPass::smooth(WaveletRasters& rasters, std::size_t level, bool along_
     target.gain.bind_target(2);
     smooth_.set("grid_size", grid.size);
     smooth_.set("spacing", grid.spacing);
-    smooth_.set("source_size", source_grid.size);
-    smooth_.set("source_step", grid.spacing / source_grid.spacing);
     smooth_.set("along_columns", along_columns ? 1 : 0);
     smooth_.set("first", &source == &rasters.levels[0] ? 1 : 0);
     smooth_.run(grid.size);

@@ -48,17 +48,20 @@ public:
 private:
     void make_rasters(WaveletRasters& rasters, std::size_t levels) const;
     void make_grids(WaveletRasters& rasters, std::size_t levels) const;
-    /// Half a level: along rows or columns, to the grid of the next level.
+    /// A level at the places of the next one's grid.
+    void restrict_level(WaveletRasters& rasters, std::size_t level, const WaveletLevel& target) const;
+    /// Half a level: along rows or columns, on the grid of level + 1.
     void smooth(WaveletRasters& rasters, std::size_t level, bool along_columns, const WaveletLevel& source,
-                const WaveletGrid& source_grid, const WaveletLevel& target) const;
+                const WaveletLevel& target) const;
     /// From the grid of level + 1 to that of `level`, and what the level has beyond that.
     void refine(WaveletRasters& rasters, std::size_t level, const gl::Raster& coarse, const gl::Raster& fine,
                 const gl::Raster& detail, bool of_far_light) const;
     void shrink(WaveletRasters& rasters, std::size_t level) const;
     void bind_narrow(const gl::Program& program, const WaveletRasters& rasters, std::size_t level, GLuint unit) const;
     gl::Program start_ = load_program("wavelet_start.glsl"), links_ = load_program("wavelet_links.glsl"),
-                halve_ = load_program("wavelet_halve.glsl"), smooth_ = load_program("wavelet_smooth.glsl"),
-                coarsest_ = load_program("wavelet_coarsest.glsl"), refine_ = load_program("wavelet_refine.glsl"),
+                halve_ = load_program("wavelet_halve.glsl"), restrict_ = load_program("wavelet_restrict.glsl"),
+                smooth_ = load_program("wavelet_smooth.glsl"), coarsest_ = load_program("wavelet_coarsest.glsl"),
+                refine_ = load_program("wavelet_refine.glsl"),
                 shrink_ = load_program("wavelet_shrink.glsl", "#define leaves_detail 0\n"),
                 shrink_to_finest_ = load_program("wavelet_shrink.glsl", "#define leaves_detail 1\n");
 };

@@ -318,7 +318,7 @@ float same_surface(vec4 guide, vec4 other_guide, float tangent_distance, float s
 // Light of a level of the wavelet, A B[F] / B[A] + B[N]: mean far radiance, which is smooth, times the openness of a narrow
 // level, plus near light.
 vec3 wavelet_light(vec4 far, vec3 near, int level, int narrow_level, float openness) {
-    return near + (level > narrow_level && far.w > 0.0 ? openness / far.w : 1.0) * far.rgb;
+    return near + (level > narrow_level ? openness / max(far.w, 1e-6) : 1.0) * far.rgb;  // without openness there is no far light
 }
 
 // The variance of what a level has beyond the coarser one, for that of a single pixel there and as widely averaged as anything.

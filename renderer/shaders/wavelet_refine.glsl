@@ -1,5 +1,7 @@
 // The coarser estimate at the places of a finer grid, and what the level there has beyond it. Between two places of the coarse
-// grid their mean, as far as they lie on the same surface and nothing cuts the way there; where none does, the level itself.
+// grid their mean, as far as they lie on the same surface and nothing cuts the way there. Where hardly any does, as on what is
+// narrower than the coarse grid, the level itself, and what is around it at the wavelet's next step: the same surface there or,
+// for want of that, one that is near and does not face away.
 layout(local_size_x = 64) in;
 
 layout(binding = 0) uniform samplerBuffer estimate;
@@ -22,6 +24,12 @@ uniform ivec2 narrow_size;
 uniform int narrow_step;   // places of its grid for one of this
 uniform int of_far_light;  // 1: the estimate is the coarsest far light, and nothing else is wanted
 
+// w: variance of a single pixel.
+vec4 light_at(int place, float openness) {
+    vec4 far = texelFetch(far_light, place), near = texelFetch(near_light, place);
+    return of_far_light == 1 ? far : vec4(wavelet_light(far, near.rgb, level, narrow_level, openness), near.w);
+}
+
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(at, grid_size))) return;
@@ -30,7 +38,8 @@ void main() {
     vec3 ray = ray_at(spacing * at);
     float slope = dot(here.xyz, ray), sharpness = surface_sharpness(here);
     float across = dot(here.xyz, ray_at(spacing * (at + ivec2(1, 0))) - ray), down = dot(here.xyz, ray_at(spacing * (at + ivec2(0, 1))) - ray);
-    vec4 sum = vec4(0.0);
+    float openness = texelFetch(narrow_far, int(index_in(narrow_size, narrow_step * at))).w;
+    vec4 own = light_at(cell, openness), sum = vec4(0.0);
     float total = 0.0;
     for (int i = 0; i < 4; ++i) {
         // To the left or right, above or below; the place itself where the coarse grid has it.
@@ -47,11 +56,22 @@ void main() {
         sum += weight * texelFetch(estimate, int(index_in(coarse_size, tap >> 1)));
         total += weight;
     }
-    vec4 far = texelFetch(far_light, cell), near = texelFetch(near_light, cell);
-    float openness = texelFetch(narrow_far, int(index_in(narrow_size, narrow_step * at))).w;
-    vec3 light = wavelet_light(far, near.rgb, level, narrow_level, openness);
-    vec4 own = of_far_light == 1 ? far : vec4(light, near.w);
-    vec4 found = (sum + 1e-3 * own) / (total + 1e-3);
+    vec4 level_sum = own;
+    float level_total = 1.0;
+    int taps = total < 0.3 ? 9 : 0;
+    for (int i = 0; i < taps; ++i) {
+        ivec2 side = ivec2(i % 3 - 1, i / 3 - 1), tap = at + 2 * side;
+        if (i == 4 || any(lessThan(tap, ivec2(0))) || any(greaterThanEqual(tap, grid_size))) continue;
+        int place = int(index_in(grid_size, tap));
+        vec4 there = texelFetch(guide, place);
+        if (there.w == 0.0) continue;
+        float distance = there.w * (slope + 2.0 * (float(side.x) * across + float(side.y) * down)) - here.w * slope;
+        float close = max(dot(here.xyz, there.xyz), 0.0) * exp(-abs(distance) * sharpness);
+        float weight = same_surface(here, there, distance, sharpness) + close;
+        level_sum += weight * light_at(place, openness);
+        level_total += weight;
+    }
+    vec4 found = (sum + 0.01 * level_sum) / (total + 0.01 * level_total);
     coarser[cell] = found;
-    detail[cell] = vec4(light - found.rgb, noise_of_detail(near.w, texelFetch(gain, cell).r, found.w, level));
+    detail[cell] = vec4(own.rgb - found.rgb, noise_of_detail(own.w, texelFetch(gain, cell).r, found.w, level));
 }

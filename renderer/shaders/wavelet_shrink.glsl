@@ -45,7 +45,7 @@ void main() {
     // pass for detail, the dark between them does not, and light would be gained. See METHOD.md.
     vec4 so_far = texelFetch(coarser, int(cell));
     float uncertain = noise / (noise + 0.1 * dot(so_far.rgb, so_far.rgb) / 3.0 + 1e-30);
-    float bias = max(energy - (1.25 + 2.5 * uncertain) * noise, 0.0);  // k: measured, see METHOD.md
+    float bias = max(energy - (0.6 + 2.5 * uncertain) * noise, 0.0);  // k: measured, see METHOD.md
     float alpha = bias > 0.0 ? bias / (bias + noise) : 0.0;
     vec4 result = vec4(so_far.rgb + alpha * texelFetch(detail, int(cell)).rgb, so_far.w);
     estimate[cell] = result;

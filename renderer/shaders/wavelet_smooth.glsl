@@ -17,8 +17,6 @@ layout(std430, binding = 2) writeonly buffer Gain { float gain_target[]; };
 
 uniform ivec2 grid_size;
 uniform int spacing;      // pixels from one place of the grid to the next
-uniform ivec2 source_size;
-uniform int source_step;  // places of the source's grid for one of this
 uniform int along_columns;
 uniform int first;        // 1: nothing has been filtered before
 
@@ -26,9 +24,8 @@ void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(at, grid_size))) return;
     uint cell = index_in(grid_size, at);
-    int stride = along_columns == 1 ? grid_size.x : 1, source_stride = source_step * (along_columns == 1 ? source_size.x : 1);
+    int stride = along_columns == 1 ? grid_size.x : 1;
     int place = along_columns == 1 ? at.y : at.x, last = (along_columns == 1 ? grid_size.y : grid_size.x) - 1;
-    int source = int(index_in(source_size, source_step * at));
     vec4 here = texelFetch(guide, int(cell));
     // The distance of taps from the tangent plane, tangent_distance of common.glsl, is linear in their place but for the depth.
     ivec2 one = spacing * (along_columns == 1 ? ivec2(0, 1) : ivec2(1, 0));
@@ -47,13 +44,13 @@ void main() {
         vec4 there = texelFetch(guide, int(cell) + tap * stride);
         float distance = there.w * (slope + float(k) * change) - here.w * slope;
         float weight = inside ? way[k + 2] * spline[k + 2] * same_surface(here, there, distance, sharpness) : 0.0;
-        far += weight * texelFetch(far_source, source + tap * source_stride);
-        near += weight * texelFetch(near_source, source + tap * source_stride);
+        far += weight * texelFetch(far_source, int(cell) + tap * stride);
+        near += weight * texelFetch(near_source, int(cell) + tap * stride);
         total += weight;
         squares += weight * weight;
     }
     float scale = total > 0.0 ? 1.0 / total : 0.0;
     far_target[cell] = far * scale;
     near_target[cell] = near * scale;
-    gain_target[cell] = (first == 1 ? 1.0 : texelFetch(gain_source, source).r) * squares * scale * scale;
+    gain_target[cell] = (first == 1 ? 1.0 : texelFetch(gain_source, int(cell)).r) * squares * scale * scale;
 }
