@@ -8,9 +8,10 @@
 // that it never meets it. What counts is the first of the children of a union and the last of those of an intersection,
 // so each may go on by what it knows, and one that knows no more than its distance holds up the others only where it is
 // near. A blend reaches beyond its children: there they are asked for the level that it adds (KindInfo::reach and
-// gather, as for bounds). A ray within what is taken away stays free as long as it is there. A mirror or a row of
-// copies holds it up where it meets the mirror or comes to other copies. What is bent or custom knows its distance and,
-// where it has an end, the box that holds it.
+// gather, as for bounds), and the ray goes on until one of them comes down to it, or two are near enough to blend. A
+// ray within what is taken away stays free as long as it is there, in a straight row of it from copy to copy. A mirror
+// or a row of copies holds it up where it meets the mirror or comes to other copies. What is bent or custom knows its
+// distance and, where it has an end, the box that holds it.
 //
 // In the Cornell room that takes 2.4 evaluations per ray in place of 21.1 of relaxed sphere tracing.
 #pragma once

@@ -9,6 +9,10 @@ A point light of intensity I (W/sr) is one of 4 pi I watts in Blender, a directi
 
 Bounces: Farfield meets emitting surfaces and the sky by its hemisphere rays only, Cycles samples them at every vertex too,
 one surface further. So k bounces are the sum of two pictures: lights with k bounces, emission and sky with k - 1.
+
+    blender -b --factory-startup -P tests/cycles/make.py -- SCENE.json --samples N --picture FILE.exr [--size N]
+
+makes one picture of all light with the scene's own number of bounces, on two cores, to compare times with.
 """
 import argparse
 import json
@@ -21,7 +25,7 @@ import bpy
 import numpy
 from mathutils import Euler, Matrix, Vector
 
-SIZE = 128
+LIGHTS, EMISSION = {"lights"}, {"emission"}
 UP = Matrix(((1, 0, 0), (0, 0, -1), (0, 1, 0)))  # Farfield's frame to Blender's
 
 
@@ -133,21 +137,21 @@ def set_camera(values):
     object.rotation_euler = forward.to_track_quat("-Z", "Y").to_euler()
 
 
-def render(scene, only_lights, bounces, samples):
-    """Pixels of the lights alone or of emission and sky alone."""
+def render(scene, light, bounces, samples, size, file):
+    """Of LIGHTS, of EMISSION, which has the sky, or of both."""
     bpy.ops.wm.read_factory_settings(use_empty=True)
-    materials = {name: diffuse_material(name, values, not only_lights) for name, values in scene["materials"].items()}
+    materials = {name: diffuse_material(name, values, "emission" in light) for name, values in scene["materials"].items()}
     for node in scene["root"]["children"]:
         add_shape(node, materials, next(iter(materials)))
-    if only_lights:
+    if "lights" in light:
         for name, values in scene.get("lights", {}).items():
             add_light(name, values)
-    set_sky({} if only_lights else scene.get("sky", {}))
+    set_sky(scene.get("sky", {}) if "emission" in light else {})
     set_camera(scene["camera"])
 
     settings = bpy.context.scene
     settings.render.engine = "CYCLES"
-    settings.render.resolution_x = settings.render.resolution_y = SIZE
+    settings.render.resolution_x = settings.render.resolution_y = size
     settings.render.resolution_percentage = 100
     settings.render.threads_mode = "FIXED"
     settings.render.threads = 2
@@ -164,25 +168,36 @@ def render(scene, only_lights, bounces, samples):
     cycles.light_sampling_threshold = 0
     cycles.pixel_filter_type = "BOX"
     cycles.max_bounces = cycles.diffuse_bounces = bounces
+    settings.render.filepath = str(file)
+    bpy.ops.render.render(write_still=True)
+
+
+def pixels(scene, light, bounces, samples, size):
     with tempfile.TemporaryDirectory() as folder:
-        settings.render.filepath = folder + "/part.exr"
-        bpy.ops.render.render(write_still=True)
-        image = bpy.data.images.load(settings.render.filepath)
-        return numpy.array(image.pixels[:], dtype=numpy.float32)
+        file = pathlib.Path(folder) / "part.exr"
+        render(scene, light, bounces, samples, size, file)
+        return numpy.array(bpy.data.images.load(str(file)).pixels[:], dtype=numpy.float32)
 
 
 def main():
     parser = argparse.ArgumentParser(prog="make.py")
     parser.add_argument("scenes", nargs="+", type=pathlib.Path)
     parser.add_argument("--samples", type=int, default=2048)
+    parser.add_argument("--size", type=int, default=128)
+    parser.add_argument("--picture", type=pathlib.Path)
     options = parser.parse_args(sys.argv[sys.argv.index("--") + 1:])
     for file in options.scenes:
         scene = json.loads(file.read_text())
+        if options.picture:
+            bounces = scene.get("settings", {}).get("bounces", 1)
+            render(scene, LIGHTS | EMISSION, bounces, options.samples, options.size, options.picture.absolute())
+            continue
         bounces = 4  # as in the test
-        pixels = (render(scene, True, bounces, options.samples) + render(scene, False, bounces - 1, options.samples))
-        result = bpy.data.images.new("sum", SIZE, SIZE, float_buffer=True, alpha=False)
+        sum_of_parts = (pixels(scene, LIGHTS, bounces, options.samples, options.size)
+                        + pixels(scene, EMISSION, bounces - 1, options.samples, options.size))
+        result = bpy.data.images.new("sum", options.size, options.size, float_buffer=True, alpha=False)
         result.colorspace_settings.name = "Linear"
-        result.pixels = pixels
+        result.pixels = sum_of_parts
         settings = bpy.context.scene.render.image_settings
         settings.file_format, settings.color_depth, settings.exr_codec = "OPEN_EXR", "16", "ZIP"
         settings.color_mode = "RGB"
