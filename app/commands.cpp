@@ -16,10 +16,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
+#include <cmath>
 
 namespace farfield {
 
-bool render_frames(Renderer& renderer, int frames, Progress& progress) {
+bool render_frames(Renderer& renderer, int frames, Progress& progress, const std::function<bool()>& enough) {
     for (int i = 0; i < frames; ++i) {
         do {
             if (Progress::interrupted()) {
@@ -28,6 +30,7 @@ bool render_frames(Renderer& renderer, int frames, Progress& progress) {
             }
         } while (!renderer.step());
         progress.advance();
+        if (enough && enough()) break;
     }
     return true;
 }
@@ -88,6 +91,35 @@ Scene load_trusted_scene(const std::filesystem::path& file, bool trust_code) {
                                 : fmt::format(" (and {} other nodes)", more)));
 }
 
+namespace {
+
+/// As many frames as the options want; false when the user interrupts.
+bool accumulate(Renderer& renderer, const RenderOptions& options) {
+    constexpr int usual = 16, most = 1'000'000;
+    const bool has_target = options.noise > 0.0f || options.seconds > 0.0f;
+    const int frames = options.frames.value_or(has_target ? most : usual);
+    Progress progress("rendering", frames);
+    if (!has_target) return render_frames(renderer, frames, progress);
+    const auto start = std::chrono::steady_clock::now();
+    double noise = 0.0;
+    const auto enough = [&] {
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        noise = renderer.noise();
+        // The share of the way that is done; noise falls with the root of the samples.
+        const double by_time = options.seconds > 0.0f ? seconds / options.seconds : 0.0;
+        const double by_noise = options.noise > 0.0f ? std::pow(options.noise / noise, 2) : 0.0;
+        const double share = std::max(by_time, by_noise);
+        progress.expect(static_cast<int>(std::min<double>(frames, std::ceil(progress.done() / share))));
+        return share >= 1.0;
+    };
+    if (!render_frames(renderer, frames, progress, enough)) return false;
+    fmt::print(stderr, "noise {:.2g} % of the indirect light, without filter, after {} frames\n", 100.0 * noise,
+               progress.done());
+    return true;
+}
+
+}  // namespace
+
 int run_render(const RenderOptions& options) {
     for (const std::filesystem::path& file : options.outputs) check_output(file, {".exr", ".png"});
     Headless headless(load_trusted_scene(options.scene, options.trust_code), options.overrides, options.context);
@@ -98,8 +130,7 @@ int run_render(const RenderOptions& options) {
     frame.seed = options.seed;
     frame.measure_bounces = true;
     renderer.update(headless.scene, frame);
-    Progress progress("rendering", options.frames);
-    if (!render_frames(renderer, options.frames, progress)) return 1;
+    if (!accumulate(renderer, options)) return 1;
     for (const std::filesystem::path& file : options.outputs)
         write_picture(read_picture(renderer, options.view, is_linear(file)), file);
     if (headless.scene.settings.bounces == 0 || isatty(STDERR_FILENO))

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -28,8 +29,9 @@ void check_output(const std::filesystem::path& file, std::initializer_list<std::
 /// What a setting is called on the command line: "--ao-radius" for "ao_radius".
 std::string option_name(std::string_view key);
 
-/// Accumulates so many frames; false, and says so, when the user interrupts.
-bool render_frames(Renderer& renderer, int frames, Progress& progress);
+/// Accumulates so many frames, or fewer: until `enough`, asked after each, says so. False, and says so, when the user
+/// interrupts.
+bool render_frames(Renderer& renderer, int frames, Progress& progress, const std::function<bool()>& enough = {});
 
 /// Settings given on the command line; those not given are the scene's own.
 struct Overrides {
@@ -47,7 +49,9 @@ struct RenderOptions {
     bool trust_code = false;
     std::vector<std::filesystem::path> outputs;
     glm::ivec2 size{768, 512};
-    int frames = 16;
+    std::optional<int> frames;  ///< 16 by default, with a target as many as that takes
+    float noise = 0.0f;         ///< target, see Renderer::noise; 0: none
+    float seconds = 0.0f;       ///< no further frame after so much time; 0: no end
     std::uint32_t seed = 0;
     View view = View::result;
     ContextKind context = ContextKind::automatic;

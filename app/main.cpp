@@ -54,8 +54,8 @@ glm::ivec2 parse_size(std::string_view text) {
 }
 
 /// An option for a whole number.
-template <class T>
-void add_whole(CLI::App& command, const std::string& option, T& to, T low, T high, const std::string& help) {
+template <class T, class To>
+void add_whole(CLI::App& command, const std::string& option, To& to, T low, T high, const std::string& help) {
     const auto read = [=, &to](const std::string& text) {
         T value = 0;
         if (!read_number(text, value) || value < low || value > high)
@@ -207,7 +207,13 @@ int run(int argc, char** argv) {
         ->allow_extra_args(false)  // one for each -o, so that the scene may follow
         ->required()
         ->type_name("IMAGE");
-    add_whole(*render_command, "--frames", render.frames, 1, 1'000'000, "Frames to accumulate, default 16");
+    add_whole(*render_command, "--frames", render.frames, 1, 1'000'000,
+              "Frames to accumulate, default 16, or as many as --noise or --seconds allow");
+    add_number(
+        *render_command, "--noise", render.noise, 1e-4f, 1e4f,
+        "Stop when RMSE / mean of indirect light is at most so much, estimated from the samples without regard to the "
+        "filter, after which it is less");
+    add_number(*render_command, "--seconds", render.seconds, 1e-3f, 1e7f, "Stop with the frame in which they are over");
     add_whole(*render_command, "--seed", render.seed, 0u, ~0u, "Another seed gives another noise, default 0");
     std::string view_names;
     for (const ViewInfo& v : views()) view_names += (view_names.empty() ? "" : "|") + std::string(v.key);

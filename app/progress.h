@@ -15,6 +15,8 @@ public:
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
     void advance();
+    void expect(int total) { total_ = total; }
+    int done() const { return done_; }
     static bool interrupted();
 
 private:

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace farfield {
 namespace {
@@ -360,6 +361,26 @@ std::vector<unsigned char> Renderer::display_pixels() {
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glGetTexImage(GL_TEXTURE_2D, 0, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
     return rgb;
+}
+
+double Renderer::noise() const {
+    std::vector<glm::vec4> sums(targets_->pixels()), reflected(sums.size());  // w: samples, 0 without a surface
+    std::vector<float> squares(sums.size());
+    targets_->far_light.read(sums.data(), sums.size() * sizeof sums[0]);
+    targets_->indirect.read(reflected.data(), reflected.size() * sizeof reflected[0]);
+    targets_->squares.read(squares.data(), squares.size() * sizeof squares[0]);
+    double error = 0.0, light = 0.0, count = 0.0;
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        const double n = sums[i].w;
+        if (n < 1.0) continue;
+        const glm::dvec3 sum(sums[i]), mean = sum / n, shown(reflected[i]), albedo = shown / glm::max(sum, 1e-30);
+        const double variance = std::max(squares[i] / n - glm::dot(mean, mean) / 3.0, 0.0) / (n - 1.0);
+        error += variance * glm::dot(albedo, albedo) / 3.0;
+        light += (shown.x + shown.y + shown.z) / (3.0 * n);
+        ++count;
+    }
+    if (light <= 0.0) return 0.0;
+    return std::isnan(error) ? std::numeric_limits<double>::infinity() : std::sqrt(error * count) / light;
 }
 
 Image Renderer::read(View view) {

@@ -93,6 +93,12 @@ public:
     std::vector<unsigned char> display_pixels();  ///< RGB, row 0 at the top
     Image read(View view);                        ///< linear
 
+    /// RMSE / mean of the accumulated indirect light without any filter, by the samples' second moments: the root of
+    /// <a² v / (n - 1)> over <a E>, v the variance of n samples of a pixel, a its albedo. Samples are spread evenly, so
+    /// that it is 1 to 1.4 times the true one at 16 samples and 1.2 to 2.5 times at 256 (five bundled scenes). 0 where
+    /// there is no light, infinite with less than two samples. Reads 36 bytes for each pixel from the device.
+    double noise() const;
+
     /// Is told of all rays from now on; see passes.h.
     void observe(RayObserver observer) { observer_ = std::move(observer); }
     /// What it holds of the device's memory: for the picture, and whatever the picture, in bytes.

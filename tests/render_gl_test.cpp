@@ -2,6 +2,7 @@
 #include "renderer/renderer.h"
 
 #include "renderer/context.h"
+#include "renderer/metrics.h"
 #include "renderer/records.h"
 #include "sdf/edit.h"
 #include "sdf/scene_file.h"
@@ -13,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace farfield {
 namespace {
@@ -358,6 +360,37 @@ TEST_F(Render, RecordsHaveTheLayoutOfTheShaders) {
 }
 
 /// A Lambert plane under a point light: radiance albedo / pi x I cos / d². A directional light: albedo / pi x E cos.
+/// Against a reference of 64 times the samples; half as much with four times the samples.
+TEST_F(Render, NoiseIsEstimatedFromTheSamples) {
+    Scene scene = bundled("cornell");
+    scene.settings.method = Method::reference;
+    scene.settings.samples = 4;
+    const auto indirect = [&](int frames, std::uint32_t seed) {
+        FrameOptions options = small;
+        options.seed = seed;
+        Image image = render(scene, frames, options);
+        const Image direct = renderer_->read(View::direct);
+        for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] -= direct.pixels[i];
+        return image;
+    };
+    const Image truth = indirect(256, 1);
+    const Metrics few = measure(indirect(4, 2), truth);
+    const double noise_of_few = renderer_->noise();
+    EXPECT_GT(noise_of_few, 0.9 * few.rmse_over_mean);
+    EXPECT_LT(noise_of_few, 2.0 * few.rmse_over_mean);
+    indirect(12, 2);  // and 12 more
+    EXPECT_NEAR(renderer_->noise(), 0.5 * noise_of_few, 0.1 * noise_of_few);
+
+    scene.settings.samples = 1;
+    render(scene, 1);
+    EXPECT_EQ(renderer_->noise(), std::numeric_limits<double>::infinity());
+    scene.sky = {};
+    scene.lights.clear();
+    for (Material& material : scene.materials) material.emission = glm::vec3(0.0f);
+    render(scene, 2);
+    EXPECT_EQ(renderer_->noise(), 0.0);
+}
+
 TEST_F(Render, DirectLightIsLambertsLaw) {
     Scene scene;
     apply(scene, InsertNode{scene.root.id, -1, make_node(NodeKind::plane)});

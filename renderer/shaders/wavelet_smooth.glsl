@@ -2,8 +2,8 @@
 // only. Dammertz et al. take its 25 taps at once; two passes of 5 cost half as much and lose 1 %. Far light, openness, near
 // light and the variance of a single pixel get the same weights; noise_gain is how much of that variance is left.
 //
-// The wavelet's steps double with each level, and so do the distances of the places where a level is known from the third on:
-// exactly those places are asked for by what is coarser. The taps are neighbours in the target's grid.
+// The wavelet's steps double with each level, and so do the distances of the places where a level is known from the second on: the
+// taps are neighbours in its grid.
 layout(local_size_x = 64) in;
 
 layout(binding = 0) uniform samplerBuffer far_source;
