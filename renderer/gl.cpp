@@ -190,6 +190,8 @@ void Program::draw(const Texture& target) const {
     glDisable(GL_DITHER);
     use();
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    // llvmpipe draws later than it computes: the next kernel would write into what is being read here.
+    glFinish();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glDeleteFramebuffers(1, &framebuffer);
     glDeleteVertexArrays(1, &vertices);

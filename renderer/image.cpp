@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -23,8 +24,10 @@ using Rows = std::function<const void*(int begin, int end)>;
 /// Writes through a temporary file of the same folder and type, some rows at a time: a large picture has many channels.
 void write(const fs::path& file, const OIIO::ImageSpec& spec, OIIO::TypeDesc type, const Rows& rows) {
     constexpr int at_once = 64;
+    static std::atomic<unsigned> count = 0;  // threads may write one file: the small picture of a scene saved twice
     fs::path temporary = file;
-    temporary.replace_filename(fmt::format(".{}.{}{}", file.stem().string(), ::getpid(), file.extension().string()));
+    temporary.replace_filename(
+        fmt::format(".{}.{}.{}{}", file.stem().string(), ::getpid(), ++count, file.extension().string()));
     const auto fail = [&](const std::string& why) {
         std::error_code ignored;
         fs::remove(temporary, ignored);

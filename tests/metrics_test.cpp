@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <thread>
 
 namespace farfield {
 namespace {
@@ -141,6 +142,22 @@ TEST(Images, LayersAttributesAndDisplayValuesAreRead) {
     EXPECT_NEAR(png.pixels[1], 0.5029, 1e-4);
     EXPECT_EQ(png.pixels[2], 1.0f);
     EXPECT_THROW(read_linear(folder / "missing.exr"), ImageError);
+}
+
+/// As the thumbnails of a scene that is saved twice at once; they had one temporary file.
+TEST(Images, ThreadsMayWriteOneFile) {
+    const TemporaryFolder folder;
+    const glm::ivec2 size{200, 120};
+    std::vector<std::thread> threads;
+    for (int t = 0; t < 4; ++t)
+        threads.emplace_back([&, t] {
+            std::vector<unsigned char> rgb;
+            for (int i = 0; i < 3 * size.x * size.y; ++i) rgb.push_back(static_cast<unsigned char>(i * i * (t + 1)));
+            for (int i = 0; i < 25; ++i) EXPECT_NO_THROW(write_display(folder / "a.png", size, rgb));
+        });
+    for (std::thread& thread : threads) thread.join();
+    EXPECT_EQ(read_image(folder / "a.png").size, size);
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / ""), {}), 1);
 }
 
 TEST(Images, ResizingKeepsAUniformImageAndItsMean) {
