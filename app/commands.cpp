@@ -93,27 +93,36 @@ Scene load_trusted_scene(const std::filesystem::path& file, bool trust_code) {
 
 namespace {
 
-/// As many frames as the options want; false when the user interrupts.
-bool accumulate(Renderer& renderer, const RenderOptions& options) {
+/// As many frames as options and settings want; false when the user interrupts.
+bool accumulate(Renderer& renderer, const RenderOptions& options, float percent) {
     constexpr int usual = 16, most = 1'000'000;
-    const bool has_target = options.noise > 0.0f || options.seconds > 0.0f;
+    const bool has_target = percent > 0.0f || options.seconds > 0.0f;
     const int frames = options.frames.value_or(has_target ? most : usual);
     Progress progress("rendering", frames);
     if (!has_target) return render_frames(renderer, frames, progress);
     const auto start = std::chrono::steady_clock::now();
     double noise = 0.0;
+    int estimated_at = 0;  // samples
     const auto enough = [&] {
-        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        noise = renderer.noise();
+        const int samples = renderer.statistics().samples;
         // The share of the way that is done; noise falls with the root of the samples.
-        const double by_time = options.seconds > 0.0f ? seconds / options.seconds : 0.0;
-        const double by_noise = options.noise > 0.0f ? std::pow(options.noise / noise, 2) : 0.0;
-        const double share = std::max(by_time, by_noise);
-        progress.expect(static_cast<int>(std::min<double>(frames, std::ceil(progress.done() / share))));
-        return share >= 1.0;
+        double share = 0.0;
+        if (percent > 0.0f && noise_due(samples, estimated_at)) {
+            noise = *renderer.noise();
+            estimated_at = samples;
+            if (100.0 * noise <= percent) return true;
+        }
+        if (estimated_at > 0) share = std::pow(0.01 * percent / noise, 2) * samples / estimated_at;
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        if (options.seconds > 0.0f) share = std::max(share, seconds / options.seconds);
+        if (share > 0.0)
+            progress.expect(static_cast<int>(std::min<double>(frames, std::ceil(progress.done() / share))));
+        return options.seconds > 0.0f && seconds >= options.seconds;
     };
     if (!render_frames(renderer, frames, progress, enough)) return false;
-    fmt::print(stderr, "noise {:.2g} % of the indirect light, without filter, after {} frames\n", 100.0 * noise,
+    const int samples = renderer.statistics().samples;
+    if (estimated_at != samples) noise = *renderer.noise();
+    fmt::print(stderr, "error of indirect light about {} after {} samples in {} frames\n", noise_text(noise), samples,
                progress.done());
     return true;
 }
@@ -130,7 +139,7 @@ int run_render(const RenderOptions& options) {
     frame.seed = options.seed;
     frame.measure_bounces = true;
     renderer.update(headless.scene, frame);
-    if (!accumulate(renderer, options)) return 1;
+    if (!accumulate(renderer, options, headless.scene.settings.noise)) return 1;
     for (const std::filesystem::path& file : options.outputs)
         write_picture(read_picture(renderer, options.view, is_linear(file)), file);
     if (headless.scene.settings.bounces == 0 || isatty(STDERR_FILENO))

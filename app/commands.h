@@ -49,8 +49,7 @@ struct RenderOptions {
     bool trust_code = false;
     std::vector<std::filesystem::path> outputs;
     glm::ivec2 size{768, 512};
-    std::optional<int> frames;  ///< 16 by default, with a target as many as that takes
-    float noise = 0.0f;         ///< target, see Renderer::noise; 0: none
+    std::optional<int> frames;  ///< 16 by default, for a noise or a time as many as that takes
     float seconds = 0.0f;       ///< no further frame after so much time; 0: no end
     std::uint32_t seed = 0;
     View view = View::result;

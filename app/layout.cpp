@@ -72,8 +72,10 @@ void status_line(const Ui& ui, ImVec2 low, ImVec2 size, const Document& document
     const float y = low.y + (size.y - font->FontSize) * 0.5f, pad = ui.theme.px(10.0f);
     const Scene& scene = document.scene();
     const int nodes = count_nodes(scene) - 1;
-    std::string right = fmt::format("{} {}   {} {}", nodes, nodes == 1 ? "node" : "nodes", picture.statistics.samples,
-                                    picture.statistics.samples == 1 ? "sample" : "samples");
+    const Statistics& s = picture.statistics;
+    std::string right = fmt::format("{} {}   {} {}", nodes, nodes == 1 ? "node" : "nodes", s.samples,
+                                    s.samples == 1 ? "sample" : "samples");
+    if (s.noise) right += fmt::format(", noise {}", noise_text(*s.noise));
     const float width = font->CalcTextSizeA(font->FontSize, 1e6f, 0.0f, right.c_str()).x;
     const std::size_t step = document.history().position();
     const std::string left = !notice.empty() ? notice

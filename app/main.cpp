@@ -208,11 +208,7 @@ int run(int argc, char** argv) {
         ->required()
         ->type_name("IMAGE");
     add_whole(*render_command, "--frames", render.frames, 1, 1'000'000,
-              "Frames to accumulate, default 16, or as many as --noise or --seconds allow");
-    add_number(
-        *render_command, "--noise", render.noise, 1e-4f, 1e4f,
-        "Stop when RMSE / mean of indirect light is at most so much, estimated from the samples without regard to the "
-        "filter, after which it is less");
+              "Frames to accumulate, default 16, or as many as --noise and --seconds allow");
     add_number(*render_command, "--seconds", render.seconds, 1e-3f, 1e7f, "Stop with the frame in which they are over");
     add_whole(*render_command, "--seed", render.seed, 0u, ~0u, "Another seed gives another noise, default 0");
     std::string view_names;

@@ -25,7 +25,9 @@ std::string text_of(const Look& look, const Look& beside) {
     std::string text = method_label(look.method);
     if (look.view != View::result || beside.view != View::result) text += fmt::format(", {}", view_label(look.view));
     if (look.blur_levels != beside.blur_levels)
-        text += fmt::format(", {} blur {}", look.blur_levels, look.blur_levels == 1 ? "level" : "levels");
+        text += look.blur_levels < 0
+                    ? ", auto blur"
+                    : fmt::format(", {} blur {}", look.blur_levels, look.blur_levels == 1 ? "level" : "levels");
     return text;
 }
 

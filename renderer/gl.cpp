@@ -67,14 +67,15 @@ Raster::Raster(std::string label, glm::ivec2 size, int channels)
                     static_cast<std::size_t>(size.y));
 }
 
-std::vector<float> Raster::read_rgb() const {
-    const auto width = static_cast<std::size_t>(size_.x), rows = static_cast<std::size_t>(size_.y);
-    std::vector<float> rgb(3 * width * rows), row(4 * width);
+std::vector<float> Raster::read() const {
+    const auto width = static_cast<std::size_t>(size_.x), rows = static_cast<std::size_t>(size_.y),
+               stored = static_cast<std::size_t>(channels_), kept = std::min<std::size_t>(stored, 3);
+    std::vector<float> values(kept * width * rows), row(stored * width);
     for (std::size_t y = 0; y < rows; ++y) {
         buffer_->read(row.data(), row.size() * sizeof(float), y * row.size() * sizeof(float));
-        for (std::size_t x = 0; x < width; ++x) std::copy_n(&row[4 * x], 3, &rgb[3 * (y * width + x)]);
+        for (std::size_t x = 0; x < width; ++x) std::copy_n(&row[stored * x], kept, &values[kept * (y * width + x)]);
     }
-    return rgb;
+    return values;
 }
 
 Texture::Texture(const std::string& label, GLenum format, glm::ivec2 size, int levels)

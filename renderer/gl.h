@@ -95,7 +95,7 @@ public:
     std::size_t bytes() const { return buffer_ ? buffer_->bytes() : 0; }
     void bind(GLuint unit) const { buffer_->bind_texels(unit, channels_ == 1 ? GL_R32F : GL_RGBA32F); }
     void bind_target(GLuint binding) const { buffer_->bind_storage(binding); }
-    std::vector<float> read_rgb() const;  ///< three floats for each pixel
+    std::vector<float> read() const;  ///< one or three floats for each pixel
     explicit operator bool() const { return buffer_.has_value(); }
 
 private:

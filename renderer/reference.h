@@ -1,5 +1,6 @@
 // The reference: the scene's light transport accumulated without filter (Method::reference), in two independent halves,
-// so that its own noise is known. It grows: later samples come on top of what there is.
+// so that its own noise is known. It grows: later samples come on top of what there is, from where the half's sequence
+// of samples is, for rays and places in the pixel alike. See METHOD.md.
 #pragma once
 
 #include "renderer/image.h"
@@ -20,7 +21,6 @@ struct ReferenceHalf {
 
 struct Reference {
     std::array<ReferenceHalf, 2> halves;
-    int portions = 0;  ///< accumulated so far, each with a seed of its own
 
     int samples() const { return halves[0].samples + halves[1].samples; }
     Image indirect() const;  ///< mean of both, by samples

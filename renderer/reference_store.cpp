@@ -49,7 +49,6 @@ Reference ReferenceStore::load(const std::string& key, glm::ivec2 size, std::str
         if (read_attribute(from, "farfield:key") != key)
             throw ImageError(fmt::format("{}: of another scene than its name says", from.string()));
         Reference reference;
-        reference.portions = whole_attribute(from, "farfield:portions");
         for (std::size_t i = 0; i < 2; ++i) {
             const std::string name = half_names[i];
             reference.halves[i] = {whole_attribute(from, "farfield:samples." + name),
@@ -68,7 +67,7 @@ void ReferenceStore::save(const std::string& key, const Reference& reference) co
     std::error_code error;
     fs::create_directories(folder_, error);
     if (error) throw ImageError(fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));
-    Attributes attributes{{"farfield:key", key}, {"farfield:portions", std::to_string(reference.portions)}};
+    Attributes attributes{{"farfield:key", key}};
     std::vector<Layer> layers;
     for (std::size_t i = 0; i < 2; ++i) {
         const ReferenceHalf& half = reference.halves[i];

@@ -89,9 +89,11 @@ struct RenderThread::State {
     bool dropped = false;                        ///< the last picture was outdated before it was filtered
     bool abandoned = false;                      ///< so was the last scene before its programs were there
     int shown_samples = 0;
-    bool preview = false;   ///< the first picture after an edit, quick and small
-    bool prepared = false;  ///< every program that the next edit may need is there
-    bool gave_up = false;   ///< background compilation failed for this scene: do not try again
+    std::optional<double> noise;  ///< of the picture as it is asked for
+    int noise_samples = 0;        ///< when it was estimated last; 0: not yet
+    bool preview = false;         ///< the first picture after an edit, quick and small
+    bool prepared = false;        ///< every program that the next edit may need is there
+    bool gave_up = false;         ///< background compilation failed for this scene: do not try again
 
     void run();
     bool render();
@@ -109,8 +111,12 @@ struct RenderThread::State {
     void write_pictures();
     bool grants(const PictureWish& wish) const;
     bool can_write();
+    void estimate_noise();
     bool finished() const {
-        return current.max_frames > 0 && renderer->statistics().frames >= current.max_frames && !quick();
+        const bool all = current.max_frames > 0 && renderer->statistics().frames >= current.max_frames;
+        const double percent = current.scene->settings.noise;
+        const bool good = percent > 0.0 && noise && 100.0 * *noise <= percent;
+        return (all || good) && !quick();
     }
     bool has_work() const { return current.scene && current.size.x > 0 && current.size.y > 0 && renderer->ready(); }
     bool quick() const { return current.interacting || preview; }
@@ -327,6 +333,8 @@ void RenderThread::State::update(Tier tier, Id tuned) {
         if (options.other) narrow(options.other->blur_levels);
         renderer->update(scene, options);
         unshown = true;
+        noise_samples = 0;
+        noise.reset();
     } catch (const std::exception& failure) {
         problem = failure.what();
         gave_up = true;
@@ -430,6 +438,7 @@ void RenderThread::State::work() {
         if (compile_in_background()) return;
         wait_while_drawing();
         if (renderer->step()) {
+            estimate_noise();
             const Statistics& s = renderer->statistics();
             const double work_done = static_cast<double>(options.size.x) * options.size.y *
                                      (1 + (options.samples ? options.samples : current.scene->settings.samples));
@@ -440,6 +449,7 @@ void RenderThread::State::work() {
                 statistics.frames_per_second > 0.0 ? 0.8 * statistics.frames_per_second + 0.2 * rate : rate;
             statistics = s;
             statistics.frames_per_second = smoothed;
+            statistics.noise = noise;
             // The first pictures and the last; of those between as many as come in time, because filtering one takes
             // longer than tracing a simple scene.
             unshown = unshown || quick() || preview || s.frames <= 2 || finished();
@@ -454,6 +464,18 @@ void RenderThread::State::work() {
         preview = false;
         update(options.tier, options.tuned);
     }
+}
+
+void RenderThread::State::estimate_noise() {
+    const int samples = renderer->statistics().samples;
+    if (quick() || !noise_due(samples, noise_samples)) return;
+    const auto estimate = renderer->noise([this] {
+        wait_while_drawing();
+        return outdated();
+    });
+    if (!estimate) return;
+    noise = estimate;
+    noise_samples = samples;
 }
 
 /// Whether filtering the picture is in vain, because a newer request has come. Not twice in a row: something must be

@@ -131,6 +131,8 @@ bool Renderer::update(const Scene& scene, const FrameOptions& options) {
     }
     scene_ = scene;
     options_ = options;
+    if (std::optional<Look>& other = options_.other)
+        other->blur_levels = blur_levels(other->blur_levels, options_.size);
     transport_ = std::move(now);
     if (!targets_ || targets_->size != options.size) {
         targets_.reset();  // frees before it takes
@@ -204,7 +206,7 @@ void Renderer::begin_frame() {
     timers_.begin_frame();
     FrameRecord record = frame_record(scene_, options_);
     set_camera(record, scene_.camera, options_.size);
-    const glm::vec2 offset = pixel_offset(completed_cameras_);
+    const glm::vec2 offset = pixel_offset(options_.first_frame + completed_cameras_);
     record.jitter_x = offset.x;
     record.jitter_y = offset.y;
     record.seed += moves_;
@@ -232,7 +234,8 @@ bool Renderer::step() {
     } else {
         {
             Timers::Scope scope(timers_, "far light");
-            far_light_pass_.run(w, far_samples_, bounces(), scene_.settings.ao_radius);
+            const auto elsewhere = static_cast<unsigned>(options_.first_frame * frame_samples_);
+            far_light_pass_.run(w, elsewhere + far_samples_, bounces(), scene_.settings.ao_radius);
         }
         Work single = w;
         single.samples = 1;
@@ -363,21 +366,31 @@ std::vector<unsigned char> Renderer::display_pixels() {
     return rgb;
 }
 
-double Renderer::noise() const {
-    std::vector<glm::vec4> sums(targets_->pixels()), reflected(sums.size());  // w: samples, 0 without a surface
-    std::vector<float> squares(sums.size());
-    targets_->far_light.read(sums.data(), sums.size() * sizeof sums[0]);
-    targets_->indirect.read(reflected.data(), reflected.size() * sizeof reflected[0]);
-    targets_->squares.read(squares.data(), squares.size() * sizeof squares[0]);
+std::optional<double> Renderer::noise(const std::function<bool()>& stop) {
+    const Look look = own_look(View::result);
+    std::vector<float> risk;
+    if (look.method == Method::farfield && look.blur_levels > 0) {
+        if (!filter(look, stop)) return std::nullopt;
+        risk = wavelet_pass_.risk(targets_->wavelet).read();
+    }
+    constexpr std::size_t part = 1 << 16;                // pixels that are read at once
+    std::vector<glm::vec4> sums(part), reflected(part);  // w: samples, 0 without a surface
+    std::vector<float> squares(part);
     double error = 0.0, light = 0.0, count = 0.0;
-    for (std::size_t i = 0; i < sums.size(); ++i) {
-        const double n = sums[i].w;
-        if (n < 1.0) continue;
-        const glm::dvec3 sum(sums[i]), mean = sum / n, shown(reflected[i]), albedo = shown / glm::max(sum, 1e-30);
-        const double variance = std::max(squares[i] / n - glm::dot(mean, mean) / 3.0, 0.0) / (n - 1.0);
-        error += variance * glm::dot(albedo, albedo) / 3.0;
-        light += (shown.x + shown.y + shown.z) / (3.0 * n);
-        ++count;
+    for (std::size_t first = 0; first < targets_->pixels(); first += part) {
+        const std::size_t pixels = std::min(part, targets_->pixels() - first);
+        targets_->far_light.read(sums.data(), pixels * sizeof sums[0], first * sizeof sums[0]);
+        targets_->indirect.read(reflected.data(), pixels * sizeof reflected[0], first * sizeof reflected[0]);
+        targets_->squares.read(squares.data(), pixels * sizeof squares[0], first * sizeof squares[0]);
+        for (std::size_t i = 0; i < pixels; ++i) {
+            const double n = sums[i].w;
+            if (n < 1.0) continue;
+            const glm::dvec3 sum(sums[i]), mean = sum / n, shown(reflected[i]), albedo = shown / glm::max(sum, 1e-30);
+            const double variance = std::max(squares[i] / n - glm::dot(mean, mean) / 3.0, 0.0) / (n - 1.0);
+            error += (risk.empty() || n < 2.0 ? variance : risk[first + i]) * glm::dot(albedo, albedo) / 3.0;
+            light += (shown.x + shown.y + shown.z) / (3.0 * n);
+            ++count;
+        }
     }
     if (light <= 0.0) return 0.0;
     return std::isnan(error) ? std::numeric_limits<double>::infinity() : std::sqrt(error * count) / light;
@@ -387,7 +400,7 @@ Image Renderer::read(View view) {
     const Look look = own_look(view);
     filter(look);
     synthesise(look);
-    return {options_.size, targets_->view().read_rgb()};
+    return {options_.size, targets_->view().read()};
 }
 
 }  // namespace farfield

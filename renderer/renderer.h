@@ -31,6 +31,7 @@ struct FrameOptions {
     Tier tier = Tier::specialised;  ///< live: no parameter edit needs a new program
     Id tuned = 0;                   ///< node with live parameters in the specialised tier
     int samples = 0;                ///< hemisphere rays per pixel and frame; 0: the scene's setting
+    int first_frame = 0;            ///< the sequences of samples go on after so many frames that are elsewhere
     bool measure_bounces = false;   ///< what each adds; automatic bounces otherwise go on with what was measured last
     bool counting = false;          ///< count rays and evaluations; costs a little
     float minimum_step = 1.0f;      ///< of the tracer, times the usual: how far off hits may be
@@ -48,6 +49,11 @@ struct Transport {
     friend bool operator==(const Transport&, const Transport&) = default;
 };
 Transport transport(const Scene& scene, const FrameOptions& options);
+
+/// Whether to estimate the noise again, after so many samples: the first few say little, and it falls slowly.
+inline bool noise_due(int samples, int last_estimated_at) {
+    return samples >= 16 && samples >= last_estimated_at + last_estimated_at / 4;
+}
 
 class Renderer {
 public:
@@ -93,11 +99,11 @@ public:
     std::vector<unsigned char> display_pixels();  ///< RGB, row 0 at the top
     Image read(View view);                        ///< linear
 
-    /// RMSE / mean of the accumulated indirect light without any filter, by the samples' second moments: the root of
-    /// <a² v / (n - 1)> over <a E>, v the variance of n samples of a pixel, a its albedo. Samples are spread evenly, so
-    /// that it is 1 to 1.4 times the true one at 16 samples and 1.2 to 2.5 times at 256 (five bundled scenes). 0 where
-    /// there is no light, infinite with less than two samples. Reads 36 bytes for each pixel from the device.
-    double noise() const;
+    /// RMSE / mean of indirect light, estimated; see METHOD.md for how well. Of `farfield` as it is filtered, else that
+    /// of the accumulated samples by their second moments. 0 where there is no light, infinite with less than two
+    /// samples; nothing where `stop`, which is asked now and then, said so. Filters the picture once more and reads 40
+    /// bytes for each pixel from the device.
+    std::optional<double> noise(const std::function<bool()>& stop = {});
 
     /// Is told of all rays from now on; see passes.h.
     void observe(RayObserver observer) { observer_ = std::move(observer); }
@@ -114,7 +120,9 @@ private:
     void keep_past();
     void begin_frame();
     void finish_frame();
-    Look own_look(View view) const { return {view, scene_.settings.method, scene_.settings.blur_levels}; }
+    Look own_look(View view) const {
+        return {view, scene_.settings.method, blur_levels(scene_.settings.blur_levels, options_.size)};
+    }
     /// Makes `estimate_` or, of the paper's method, `blurred_`; false when `stop` said so.
     bool filter(const Look& look, const std::function<bool()>& stop = {});
     void synthesise(const Look& look);

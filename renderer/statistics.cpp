@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace farfield {
 
 std::string bounces_text(const Statistics& statistics) {
@@ -12,6 +14,10 @@ std::string bounces_text(const Statistics& statistics) {
         text += fmt::format("; bounce {} adds {:.1f} %", bounces + 1,
                             100.0f * statistics.bounce_shares[static_cast<std::size_t>(bounces)]);
     return text;
+}
+
+std::string noise_text(double noise) {
+    return std::isfinite(noise) ? fmt::format("{:.{}f} %", 100.0 * noise, noise < 0.1 ? 1 : 0) : "unknown";
 }
 
 }  // namespace farfield

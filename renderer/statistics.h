@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct Statistics {
     double frames_per_second = 0.0;   ///< smoothed
     int frames = 0;                   ///< accumulated since the last reset
     int samples = 0;                  ///< hemisphere rays per pixel accumulated since the last reset
+    std::optional<double> noise;      ///< see Renderer::noise; where the caller had it estimated
     int structural_compiles = 0;      ///< programs made for a structure not met before; a parameter edit never adds one
     int specialisations = 0;          ///< further programs for known structures, made once the hand rested
     double compile_milliseconds = 0.0;  ///< of the last program, or of all parts made at once
@@ -33,5 +35,7 @@ struct Statistics {
 
 /// "3 bounces; bounce 4 adds 0.3 %", the latter where it was measured; empty before the first picture.
 std::string bounces_text(const Statistics& statistics);
+/// "3.1 %"; "unknown" where it is not finite.
+std::string noise_text(double noise);
 
 }  // namespace farfield

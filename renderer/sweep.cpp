@@ -48,7 +48,8 @@ std::string why_unmeasurable(const Reference& reference) {
 }
 
 Sweep::Sweep(Scene scene, SweepPlan plan) : scene_(std::move(scene)), plan_(std::move(plan)) {
-    const Settings& own = scene_.settings;
+    Settings& own = scene_.settings;
+    own.blur_levels = blur_levels(own.blur_levels, plan_.size);
     std::ranges::sort(plan_.samples);
     frame_samples_ = own.samples;
     for (const int samples : plan_.samples) frame_samples_ = std::gcd(frame_samples_, samples);

@@ -3,6 +3,10 @@
 
 #include "sdf/scene.h"
 
+#include <glm/vec2.hpp>
+
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -42,6 +46,12 @@ struct Look {
     int blur_levels = 3;
     friend bool operator==(const Look&, const Look&) = default;
 };
+
+/// As set, or for -1 such that 2^levels pixels are about 1/32 of the picture's shorter side; see METHOD.md.
+inline int blur_levels(int set, glm::ivec2 size) {
+    const int side = std::min(size.x, size.y);
+    return set >= 0 ? set : std::max(static_cast<int>(std::lround(std::log2(std::max(side, 1) / 32.0))), 1);
+}
 
 inline std::span<const ViewInfo> views() { return view_table; }
 

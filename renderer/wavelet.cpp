@@ -47,13 +47,15 @@ bool WaveletPass::run(WaveletRasters& rasters, int blur_levels, const std::funct
     coarsest.near.bind(1);
     bind_narrow(coarsest_, rasters, levels, 2);
     rasters.estimates[0].bind_target(0);
+    coarsest.gain.bind(3);
+    rasters.scratch.gain.bind_target(1);
     coarsest_.set("grid_size", rasters.grid_of(levels).size);
     coarsest_.set("level", static_cast<int>(levels));
     coarsest_.run(rasters.grid_of(levels).size);
     for (std::size_t i = levels; i-- > 0;) {
         if (stop && stop()) return false;
         if (i > 0) refine(rasters, i, rasters.estimates[0], rasters.estimates[1], rasters.scratch.far, false);
-        shrink(rasters, i);
+        shrink(rasters, i, i + 1 == levels);
     }
     return true;
 }
@@ -170,14 +172,16 @@ void WaveletPass::refine(WaveletRasters& rasters, std::size_t level, const gl::R
     refine_.run(grid.size);
 }
 
-void WaveletPass::shrink(WaveletRasters& rasters, std::size_t level) const {
-    const WaveletGrid& grid = rasters.grid_of(level);
+void WaveletPass::shrink(WaveletRasters& rasters, std::size_t level, bool from_coarsest) const {
+    const WaveletGrid &grid = rasters.grid_of(level), &coarser = rasters.grid_of(level + 1);
     const gl::Program& program = level == 1 ? shrink_to_finest_ : shrink_;
     if (level == 0) std::swap(rasters.estimates[0], rasters.estimates[1]);
     (level > 0 ? rasters.scratch.far : rasters.scratch.near).bind(0);
     rasters.estimates[1].bind(1);
     grid.guide.bind(2);
+    (from_coarsest ? rasters.scratch : rasters.levels[level + 1]).gain.bind(5);
     rasters.estimates[0].bind_target(0);
+    rasters.levels[level].gain.bind_target(2);
     if (level == 1) {
         rasters.levels[0].far.bind(3);
         rasters.levels[0].near.bind(4);
@@ -185,9 +189,13 @@ void WaveletPass::shrink(WaveletRasters& rasters, std::size_t level) const {
     }
     program.set("grid_size", grid.size);
     program.set("spacing", grid.spacing);
+    program.set("coarser_size", coarser.size);
+    program.set("coarser_step", coarser.spacing / grid.spacing);
     program.set("stride", level > 0 ? 2 : 1);
     program.run(grid.size);
 }
+
+const gl::Raster& WaveletPass::risk(const WaveletRasters& rasters) const { return rasters.levels[0].gain; }
 
 const gl::Raster& WaveletPass::far_light(WaveletRasters& rasters, int blur_levels) const {
     // By turns into what the finest level was.

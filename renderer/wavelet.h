@@ -9,7 +9,8 @@
 
 namespace farfield {
 
-/// Far and near light as one level of the wavelet has them, and the share of a pixel's variance that is left.
+/// Far and near light as one level of the wavelet has them, and the share of a pixel's variance that is left, in whose
+/// place comes the squared error that is to be expected of the estimate down to that level.
 struct WaveletLevel {
     gl::Raster far, near, gain;
 };
@@ -44,6 +45,9 @@ public:
     bool run(WaveletRasters& rasters, int blur_levels, const std::function<bool()>& stop) const;
     /// The coarsest far light of the last run, with its openness in w, for every pixel. The estimate stays.
     const gl::Raster& far_light(WaveletRasters& rasters, int blur_levels) const;
+    /// The squared error that is to be expected of the last run's estimate, for every pixel. Of at least one blur
+    /// level.
+    const gl::Raster& risk(const WaveletRasters& rasters) const;
 
 private:
     void make_rasters(WaveletRasters& rasters, std::size_t levels) const;
@@ -56,7 +60,7 @@ private:
     /// From the grid of level + 1 to that of `level`, and what the level has beyond that.
     void refine(WaveletRasters& rasters, std::size_t level, const gl::Raster& coarse, const gl::Raster& fine,
                 const gl::Raster& detail, bool of_far_light) const;
-    void shrink(WaveletRasters& rasters, std::size_t level) const;
+    void shrink(WaveletRasters& rasters, std::size_t level, bool from_coarsest) const;
     void bind_narrow(const gl::Program& program, const WaveletRasters& rasters, std::size_t level, GLuint unit) const;
     gl::Program start_ = load_program("wavelet_start.glsl"), links_ = load_program("wavelet_links.glsl"),
                 halve_ = load_program("wavelet_halve.glsl"), restrict_ = load_program("wavelet_restrict.glsl"),

@@ -109,6 +109,16 @@ std::span<const Field<Settings>> fields<Settings>() {
              method_keys}),
         field<&Settings::samples>(
             {"samples", "Hemisphere rays per pixel and frame", P::integer, Unit::none, 1.0f, 64.0f}),
+        field<&Settings::noise>({"noise",
+                                 "Frames are added until the error of indirect light, RMSE / mean as estimated, is at "
+                                 "most so much; off: for ever",
+                                 P::number,
+                                 Unit::percent,
+                                 0.1f,
+                                 100.0f,
+                                 {},
+                                 {},
+                                 "off"}),
         field<&Settings::bounces>({"bounces",
                                    "Diffuse bounces of far light; auto stops when the next would add less than 0.5 %",
                                    P::integer,
@@ -119,8 +129,15 @@ std::span<const Field<Settings>> fields<Settings>() {
                                    {},
                                    "auto"}),
         field<&Settings::blur_levels>({"blur_levels",
-                                       "How far far light is averaged, doubling with each level; 0 leaves it as it is",
-                                       P::integer, Unit::none, 0.0f, 8.0f}),
+                                       "How far far light is averaged, doubling with each level; 0 leaves it as it is; "
+                                       "auto goes by the size of the picture: 3 at 256 pixels, 4 at 512",
+                                       P::integer,
+                                       Unit::none,
+                                       0.0f,
+                                       8.0f,
+                                       {},
+                                       {},
+                                       "auto"}),
         field<&Settings::ao_radius>(
             {"ao_radius", "How far ambient occlusion looks", P::number, Unit::metres, 1e-3f, 1e3f}),
         field<&Settings::exposure>(

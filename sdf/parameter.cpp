@@ -53,7 +53,8 @@ std::string why_refused(const Parameter& parameter, glm::vec3 value) {
     for (int i = 0; i < parameter.components(); ++i) {
         const float v = value[i];
         const bool whole = !parameter.is_whole() || v == std::floor(v);
-        if (!(v >= parameter.lowest() && v <= parameter.maximum) || !whole) return "expected " + expectation(parameter);
+        const bool inside = (v >= parameter.minimum && v <= parameter.maximum) || v == parameter.lowest();
+        if (!inside || !whole) return "expected " + expectation(parameter);
     }
     return {};
 }
@@ -62,7 +63,8 @@ glm::vec3 clamped(const Parameter& parameter, glm::vec3 value) {
     for (int i = 0; i < 3; ++i) {
         if (std::isnan(value[i])) value[i] = parameter.initial[i];
         if (i >= parameter.components()) continue;
-        value[i] = glm::clamp(value[i], parameter.lowest(), parameter.maximum);
+        const bool is_word = parameter.word && value[i] < 0.5f * (parameter.lowest() + parameter.minimum);
+        value[i] = is_word ? parameter.lowest() : glm::clamp(value[i], parameter.minimum, parameter.maximum);
         if (parameter.is_whole()) value[i] = std::round(value[i]);
     }
     return value;
@@ -80,6 +82,8 @@ std::string_view unit_symbol(Unit unit) {
             return "1/m";
         case Unit::stops:
             return "stops";
+        case Unit::percent:
+            return "%";
         case Unit::none:
             break;
     }

@@ -22,7 +22,7 @@ enum class ParameterType {
 };
 
 /// Units as files and the user interface show them. Generated code takes radians: see `to_code_units`.
-enum class Unit { none, metres, degrees, degrees_per_metre, per_metre, stops };
+enum class Unit { none, metres, degrees, degrees_per_metre, per_metre, stops, percent };
 
 /// Lengths, positions and radiances beyond this magnitude are refused everywhere: single precision is useless there.
 inline constexpr float largest_value = 1e6f;
@@ -36,9 +36,11 @@ struct Parameter {
     float maximum = largest_value;
     glm::vec3 initial{0.0f};  ///< the default; x alone counts for one-component types
     std::span<const char* const> choices = {};
-    const char* word = nullptr;  ///< of one whole number: what else it takes, as "auto"; stored as minimum - 1
+    /// What else one number takes, as "auto"; stored as minimum - 1 where it is whole, else as 0, which is below
+    /// minimum.
+    const char* word = nullptr;
 
-    float lowest() const { return word ? minimum - 1.0f : minimum; }  ///< stored
+    float lowest() const { return !word ? minimum : is_whole() ? minimum - 1.0f : 0.0f; }  ///< stored
     bool is_word(float value) const { return word && value < minimum; }
     int components() const;  ///< 1 or 3
     bool is_whole() const;   ///< values are whole numbers
@@ -58,6 +60,6 @@ std::string expectation(const Parameter& parameter);
 /// `value` brought into the range, rounded where it must be whole; NaN becomes the default.
 glm::vec3 clamped(const Parameter& parameter, glm::vec3 value);
 
-std::string_view unit_symbol(Unit unit);  ///< "m", "°", "°/m", "1/m", "stops" or ""
+std::string_view unit_symbol(Unit unit);  ///< "m", "°", "°/m", "1/m", "stops", "%" or ""
 
 }  // namespace farfield

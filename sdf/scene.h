@@ -101,9 +101,10 @@ inline constexpr const char* method_keys[] = {"paper", "farfield", "reference"};
 /// How the scene is rendered; saved with it, because a good AO radius or exposure belongs to the scene.
 struct Settings {
     Method method = Method::farfield;
-    int samples = 4;         ///< hemisphere rays per pixel and frame
-    int bounces = 1;         ///< diffuse bounces of far light; 0: as many as change its mean
-    int blur_levels = 3;     ///< far light is averaged over about 2^levels pixels; 0 leaves it unfiltered
+    int samples = 4;      ///< hemisphere rays per pixel and frame
+    float noise = 0.0f;   ///< %; frames are added until indirect light is so near its converged picture; 0: for ever
+    int bounces = 1;      ///< diffuse bounces of far light; 0: as many as change its mean
+    int blur_levels = 3;  ///< far light is averaged over about 2^levels pixels; 0 leaves it unfiltered; -1: by the size
     float ao_radius = 0.5f;  ///< metres
     float exposure = 0.0f;   ///< stops: the picture is multiplied by 2^exposure
     friend bool operator==(const Settings&, const Settings&) = default;

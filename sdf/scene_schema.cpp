@@ -35,6 +35,7 @@ Schema initial(const Parameter& parameter) {
     const glm::vec3 v = parameter.initial;
     if (parameter.type == ParameterType::choice) return parameter.choices[static_cast<std::size_t>(v.x)];
     if (parameter.type == ParameterType::flag) return v.x != 0.0f;
+    if (parameter.is_word(v.x)) return parameter.word;
     if (parameter.components() == 1) return number(v.x);
     if (parameter.type == ParameterType::flags) return Schema::array({v.x != 0.0f, v.y != 0.0f, v.z != 0.0f});
     return Schema::array({number(v.x), number(v.y), number(v.z)});

@@ -41,7 +41,6 @@ TEST_F(Charts, AReferenceKnowsItsNoise) {
     Reference reference;
     grow(reference, 512);
     EXPECT_EQ(reference.samples(), 512);
-    EXPECT_EQ(reference.portions, 2);
     scene_.settings.method = Method::reference;
     renderer_->update(scene_, {.size = size, .seed = 7, .samples = 8});
     renderer_->discard();
@@ -63,7 +62,6 @@ TEST_F(Charts, AReferenceGrowsOnTopOfWhatThereIs) {
     EXPECT_EQ(frames_to_extend(grown, 512), (512 - 64) / 8);
     const Image first = grown.halves[0].indirect;
     grow(grown, 512);
-    EXPECT_EQ(grown.portions, 4);
     EXPECT_EQ(grown.halves[0].samples, 256);
     EXPECT_NE(grown.halves[0].indirect.pixels, first.pixels);
     EXPECT_LT(grown.noise_mse(), 0.3 * noise) << "an eighth, for independent samples";
@@ -118,7 +116,6 @@ TEST_F(Charts, StoredReferencesComeBackAndBrokenOnesDoNot) {
     store.save(key, reference);
     const Reference loaded = store.load(key, size, problem);
     EXPECT_EQ(problem, "");
-    EXPECT_EQ(loaded.portions, reference.portions);
     for (std::size_t i = 0; i < 2; ++i) {
         EXPECT_EQ(loaded.halves[i].samples, reference.halves[i].samples);
         EXPECT_EQ(loaded.halves[i].indirect.pixels, reference.halves[i].indirect.pixels);
@@ -129,7 +126,7 @@ TEST_F(Charts, StoredReferencesComeBackAndBrokenOnesDoNot) {
         const Reference none = store.load(of, expected_size, problem);
         EXPECT_NE(problem.find(store.file(of).string()), std::string::npos) << problem;
         EXPECT_NE(problem.find("is made again"), std::string::npos) << problem;
-        return none.samples() == 0 && none.portions == 0;
+        return none.samples() == 0;
     };
     EXPECT_TRUE(refused(key, {32, 31}));
     const std::string bytes = read_text(store.file(key));
@@ -145,10 +142,7 @@ TEST_F(Charts, StoredReferencesComeBackAndBrokenOnesDoNot) {
                                     {"b.result", loaded.halves[1].result}};
     for (const char* samples : {"0", "-4", "nan", "99999999999", "2000000000", ""}) {
         write_exr(store.file(key), layers,
-                  {{"farfield:key", key},
-                   {"farfield:portions", "2"},
-                   {"farfield:samples.a", samples},
-                   {"farfield:samples.b", "16"}});
+                  {{"farfield:key", key}, {"farfield:samples.a", samples}, {"farfield:samples.b", "16"}});
         EXPECT_TRUE(refused(key, size)) << samples;
     }
 }

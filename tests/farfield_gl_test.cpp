@@ -281,7 +281,7 @@ TEST_F(Farfield, BlurLevelsAreAsWideInThePapersFilterAsInTheWavelet) {
             filtered = &wavelet.far_light(targets.wavelet, levels);
         }
         synthesis.run(targets, blurred, filtered, nullptr, static_cast<int>(View::filtered), method, 1);
-        const Image image{options_.size, targets.view().read_rgb()};
+        const Image image{options_.size, targets.view().read()};
         double sum = 0.0, squares = 0.0;
         for (int i = 0; i < side * side; ++i) {
             const double v = image.pixels[static_cast<std::size_t>(3 * i)], x = i % side - at;

@@ -359,8 +359,7 @@ TEST_F(Render, RecordsHaveTheLayoutOfTheShaders) {
     EXPECT_EQ(property("hits[0].distance", GL_TOP_LEVEL_ARRAY_STRIDE), hit_bytes);
 }
 
-/// A Lambert plane under a point light: radiance albedo / pi x I cos / d². A directional light: albedo / pi x E cos.
-/// Against a reference of 64 times the samples; half as much with four times the samples.
+/// Against a reference of many more samples, of the accumulated samples and as `farfield` filters them.
 TEST_F(Render, NoiseIsEstimatedFromTheSamples) {
     Scene scene = bundled("cornell");
     scene.settings.method = Method::reference;
@@ -368,18 +367,24 @@ TEST_F(Render, NoiseIsEstimatedFromTheSamples) {
     const auto indirect = [&](int frames, std::uint32_t seed) {
         FrameOptions options = small;
         options.seed = seed;
-        Image image = render(scene, frames, options);
-        const Image direct = renderer_->read(View::direct);
-        for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] -= direct.pixels[i];
-        return image;
+        const Image image = render(scene, frames, options);
+        return difference(image, renderer_->read(View::direct));
     };
-    const Image truth = indirect(256, 1);
-    const Metrics few = measure(indirect(4, 2), truth);
-    const double noise_of_few = renderer_->noise();
-    EXPECT_GT(noise_of_few, 0.9 * few.rmse_over_mean);
-    EXPECT_LT(noise_of_few, 2.0 * few.rmse_over_mean);
+    const Image truth = indirect(512, 1);
+    const double error = measure(indirect(4, 2), truth).rmse_over_mean, noise = renderer_->noise().value();
+    EXPECT_GT(noise, 0.9 * error);
+    EXPECT_LT(noise, 2.0 * error);
     indirect(12, 2);  // and 12 more
-    EXPECT_NEAR(renderer_->noise(), 0.5 * noise_of_few, 0.1 * noise_of_few);
+    EXPECT_NEAR(renderer_->noise().value(), 0.5 * noise, 0.1 * noise);
+
+    scene.settings.method = Method::farfield;
+    for (const int frames : {4, 12}) {  // 16 samples, then 64
+        const double filtered = measure(indirect(frames, 3), truth).rmse_over_mean;
+        EXPECT_LT(filtered, 0.5 * error);
+        EXPECT_GT(renderer_->noise().value(), 0.5 * filtered);
+        EXPECT_LT(renderer_->noise().value(), 2.0 * filtered);
+    }
+    EXPECT_FALSE(renderer_->noise([] { return true; }).has_value());
 
     scene.settings.samples = 1;
     render(scene, 1);
@@ -391,6 +396,7 @@ TEST_F(Render, NoiseIsEstimatedFromTheSamples) {
     EXPECT_EQ(renderer_->noise(), 0.0);
 }
 
+/// A Lambert plane under a point light: radiance albedo / pi x I cos / d². A directional light: albedo / pi x E cos.
 TEST_F(Render, DirectLightIsLambertsLaw) {
     Scene scene;
     apply(scene, InsertNode{scene.root.id, -1, make_node(NodeKind::plane)});

@@ -80,6 +80,29 @@ TEST_F(RenderThreadTest, ARefusedSceneLeavesTheLastPictureAndTheNextSceneShows) 
     wait([&](const RenderedPicture& p) { return good(p) && p.serial > refused.serial; });
 }
 
+/// Samples of a view are kept when less noise is asked for.
+TEST_F(RenderThreadTest, ThePictureRestsAtItsNoiseAndGoesOnForLess) {
+    Scene scene = scene_;
+    scene.settings.samples = 8;
+    const auto rest_at = [&](float percent) {
+        scene.settings.noise = percent;
+        thread_->submit({.scene = std::make_shared<const Scene>(scene), .size = {32, 32}});
+        const auto reached = [&](const RenderedPicture& p) {
+            return p.statistics.noise && 100.0 * *p.statistics.noise <= percent;
+        };
+        wait(reached);
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        const int samples = thread_->acquire().statistics.samples;
+        std::this_thread::sleep_for(std::chrono::milliseconds(300));
+        EXPECT_EQ(thread_->acquire().statistics.samples, samples) << "goes on at " << percent << " %";
+        return samples;
+    };
+    const int coarse = rest_at(20.0f), fine = rest_at(4.0f);
+    EXPECT_GE(coarse, 16);
+    EXPECT_GT(fine, 2 * coarse);
+    EXPECT_LE(rest_at(20.0f), fine + scene.settings.samples) << "one frame to see that there is enough";
+}
+
 TEST_F(RenderThreadTest, ALargeSceneTellsHowFarItIsAndMakesWayForANewerOne) {
     Scene large = load_scene(std::filesystem::path(FARFIELD_SCENES) / "helix.json");
     const Node helix = large.root;

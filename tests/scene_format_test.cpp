@@ -23,6 +23,7 @@ std::string default_text(const Parameter& parameter) {
     const glm::vec3 v = parameter.initial;
     if (parameter.type == ParameterType::choice)
         return fmt::format("\"{}\"", parameter.choices[static_cast<size_t>(v.x)]);
+    if (parameter.is_word(v.x)) return fmt::format("\"{}\"", parameter.word);
     if (parameter.components() == 1) return fmt::format("{}", v.x);
     if (parameter.type == ParameterType::flags) return fmt::format("[{}, {}, {}]", v.x != 0, v.y != 0, v.z != 0);
     return fmt::format("[{}, {}, {}]", v.x, v.y, v.z);

@@ -14,6 +14,7 @@ namespace {
 int decimals(const Parameter& parameter, float value) {
     if (parameter.is_whole()) return 0;
     if (parameter.unit == Unit::degrees || parameter.unit == Unit::degrees_per_metre) return 1;
+    if (parameter.unit == Unit::percent) return 1;
     if (parameter.unit == Unit::stops) return 2;
     return value != 0.0f && std::abs(value) < 0.01f ? 5 : 3;
 }
@@ -65,8 +66,10 @@ float position_of(const SliderRange& range, float value) {
                              : (v - range.low) / (range.high - range.low);
 }
 
-double value_at(const SliderRange& range, double position) {
+/// The parameter's word, if it is no whole number, is at the left end.
+double value_at(const Parameter& parameter, const SliderRange& range, double position) {
     const double t = std::clamp(position, 0.0, 1.0), low = range.low, high = range.high;
+    if (parameter.word && !parameter.is_whole() && t < 0.02) return parameter.lowest();
     return range.logarithmic ? low * std::pow(high / low, t) : low + t * (high - low);
 }
 
@@ -164,7 +167,7 @@ bool follow_mouse(NumberEntry& entry, const ImRect& box, const Parameter& parame
             entry.along += 0.1f * io.MouseDelta.x / box.GetWidth();
         else
             entry.along = (io.MousePos.x - box.Min.x) / box.GetWidth();
-        entry.exact = value_at(*range, entry.along);
+        entry.exact = value_at(parameter, *range, entry.along);
     }
     const float moved = rounded(parameter, entry.exact);
     if (moved == value) return false;
@@ -177,7 +180,7 @@ bool follow_click(NumberEntry& entry, ImGuiID id, const Parameter& parameter, fl
     const double late = ImGui::GetTime() - entry.click_due;
     if (!range || entry.clicked != id || late < 0.0) return false;
     entry.clicked = 0;
-    const float moved = rounded(parameter, value_at(*range, entry.along));
+    const float moved = rounded(parameter, value_at(parameter, *range, entry.along));
     if (late > 1.0 || moved == value) return false;
     value = moved;
     return true;

@@ -13,6 +13,7 @@ namespace {
 SliderRange slider_range(const Parameter& parameter) {
     using namespace std::string_view_literals;
     if (parameter.key == "ao_radius"sv) return {0.01f, 10.0f, true};
+    if (parameter.key == "noise"sv) return {0.5f, 50.0f, true};
     if (parameter.key == "exposure"sv) return {-6.0f, 6.0f};
     return {parameter.lowest(), parameter.maximum};
 }

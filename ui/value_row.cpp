@@ -32,6 +32,10 @@ std::string hint_text(const Parameter& parameter, const std::string& full = {}) 
             if (initial.empty()) initial = "none";
             break;
         default:
+            if (parameter.is_word(parameter.initial.x)) {
+                initial = parameter.word;
+                break;
+            }
             initial =
                 parameter.components() == 1 ? number(0) : fmt::format("{}, {}, {}", number(0), number(1), number(2));
             if (parameter.unit != Unit::none) initial += fmt::format(" {}", unit_symbol(parameter.unit));
