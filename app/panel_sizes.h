@@ -6,7 +6,7 @@ namespace farfield {
 /// At 96 dpi.
 struct PanelSizes {
     float left = 250.0f, right = 336.0f;        ///< widths of the columns
-    float objects = 238.0f, settings = 274.0f;  ///< heights of their lower panels
+    float objects = 238.0f, settings = 302.0f;  ///< heights of their lower panels
     float code_width = 660.0f, code_height = 330.0f;
 };
 

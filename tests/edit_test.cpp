@@ -39,6 +39,27 @@ TEST(Edit, SetsAValue) {
     EXPECT_EQ(value(s.scene, s.node(s.sphere), "radius").x, 2.0f);
 }
 
+/// Whole ones store it one below their minimum, others as 0, and nothing lies between.
+TEST(Edit, AWordIsAValueBelowTheOthers) {
+    const ObjectRef settings{ObjectType::settings, 0};
+    Scene scene;
+    for (const auto& [key, word, lowest] :
+         {std::tuple("blur_levels", -1.0f, 0.0f), {"bounces", 0.0f, 1.0f}, {"noise", 0.0f, 0.1f}}) {
+        for (const float v : {word, lowest}) {
+            apply(scene, SetValue{settings, key, glm::vec3(v, 0.0f, 0.0f)});
+            EXPECT_EQ(value(scene, settings, key).x, v) << key;
+        }
+        for (const float v : {word - 0.01f, 0.5f * (word + lowest), -1000.0f})
+            EXPECT_THROW(apply(scene, SetValue{settings, key, glm::vec3(v, 0.0f, 0.0f)}), EditError) << key;
+        for (const Parameter& parameter : parameters(scene, settings)) {
+            if (parameter.key != std::string_view(key)) continue;
+            EXPECT_EQ(clamped(parameter, glm::vec3(-1000.0f)).x, word) << key;
+            EXPECT_EQ(clamped(parameter, glm::vec3(word + 0.9f * (lowest - word))).x, lowest) << key;
+            EXPECT_TRUE(parameter.is_word(word) && !parameter.is_word(lowest)) << key;
+        }
+    }
+}
+
 TEST(Edit, LeavesTheSceneUntouchedOnError) {
     Small s;
     const float nan = std::numeric_limits<float>::quiet_NaN();

@@ -97,6 +97,17 @@ TEST_F(Farfield, FurnaceIsExactForEveryAoRadius) {
 }
 
 /// In a furnace that emits 1 and reflects half bounce k adds 2^(1-k) to 2 - 2^(2-k).
+TEST_F(Farfield, AutomaticBlurLevelsGoByTheSizeOfThePicture) {
+    EXPECT_EQ(blur_levels(3, {4096, 4096}), 3);
+    EXPECT_EQ(blur_levels(0, {4096, 4096}), 0);
+    for (const auto& [side, levels] : {std::pair(1, 1), {64, 1}, {128, 2}, {256, 3}, {512, 4}, {2160, 6}})
+        EXPECT_EQ(blur_levels(-1, {2 * side, side}), levels) << side;
+    const Scene scene = load_scene(std::filesystem::path(FARFIELD_SCENES) / "cornell.json");
+    accumulate(scene, 1);
+    for (const Method method : {Method::paper, Method::farfield})
+        EXPECT_EQ(read(scene, method, -1).pixels, read(scene, method, 1).pixels);
+}
+
 TEST_F(Farfield, AutomaticBouncesStopWhereTheNextAddsLittle) {
     Scene scene;
     const Id shell = apply(scene, InsertNode{scene.root.id, -1, make_node(NodeKind::shell)});
