@@ -16,7 +16,7 @@
 namespace farfield {
 namespace {
 
-constexpr std::size_t cache_size = 512;      // of parts
+constexpr std::size_t cache_size = 128;      // programs beside those of the scenes that were asked for last
 constexpr std::size_t remembered_codes = 6;  // of scenes: two of each program that an edit asks for
 constexpr int generated_file = 2;            // its number in #line directives
 
@@ -218,7 +218,9 @@ void TracePrograms::compile_surface(const Code& code) {
     ++compiles_;
     structures_.insert(std::hash<std::string>()(generate(code.part, Tier::live).key));
     cache_.push_front(std::make_shared<const Entry>(*std::exchange(begun_, {})));
-    if (cache_.size() > cache_size) cache_.pop_back();
+    std::size_t most = cache_size;
+    for (const Codes& parts : codes_) most += parts.size();
+    while (cache_.size() > most) cache_.pop_back();
 }
 
 gl::Program TracePrograms::compiled(const Code& code, const char* name, const char* file) {
