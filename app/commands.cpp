@@ -122,7 +122,7 @@ bool accumulate(Renderer& renderer, const RenderOptions& options, float percent)
     if (!render_frames(renderer, frames, progress, enough)) return false;
     const int samples = renderer.statistics().samples;
     if (estimated_at != samples) noise = *renderer.noise();
-    fmt::print(stderr, "error of indirect light about {} after {} samples in {} frames\n", noise_text(noise), samples,
+    fmt::print(stderr, "error of indirect light about {} after {} samples in {} frames\n", percent_text(noise), samples,
                progress.done());
     return true;
 }

@@ -75,7 +75,7 @@ void status_line(const Ui& ui, ImVec2 low, ImVec2 size, const Document& document
     const Statistics& s = picture.statistics;
     std::string right = fmt::format("{} {}   {} {}", nodes, nodes == 1 ? "node" : "nodes", s.samples,
                                     s.samples == 1 ? "sample" : "samples");
-    if (s.noise) right += fmt::format(", noise {}", noise_text(*s.noise));
+    if (s.noise) right += fmt::format(", noise {}", percent_text(*s.noise));
     const float width = font->CalcTextSizeA(font->FontSize, 1e6f, 0.0f, right.c_str()).x;
     const std::size_t step = document.history().position();
     const std::string left = !notice.empty() ? notice

@@ -10,10 +10,10 @@
 namespace farfield {
 namespace {
 
-constexpr int version = 2;            // of what else decides: raise it when passes.cpp follows paths anew
-constexpr int frame_samples = 8;      // for each camera ray of a pixel, which antialiases
-constexpr int portion_samples = 512;  // what an interrupted run loses at most
-constexpr std::uint32_t seeds[] = {0x5eed0000u, 0x5eed0001u};  // of the halves; far from those that people give
+constexpr int version = 2;                         // of what else decides: raise it when passes.cpp follows paths anew
+constexpr int frame_samples = 8;                   // for each camera ray of a pixel, which antialiases
+constexpr int portion_samples = 512;               // what an interrupted run loses at most
+constexpr std::uint32_t first_seed = 0x5eed0000u;  // of the first half; far from those that people give
 
 int half_of(int samples) { return (samples + 1) / 2; }
 
@@ -121,12 +121,12 @@ bool extend(Reference& reference, Renderer& renderer, Scene scene, glm::ivec2 si
     options.size = size;
     options.samples = frame_samples;
     for (;;) {
-        auto& [a, b] = reference.halves;
-        const bool first = a.samples <= b.samples;
-        ReferenceHalf& half = first ? a : b;
+        const auto& [a, b] = reference.halves;
+        const std::uint32_t behind = a.samples <= b.samples ? 0 : 1;
+        ReferenceHalf& half = reference.halves[behind];
         const int portion = next_portion(half, samples);
         if (portion == 0) return true;
-        options.seed = seeds[first ? 0 : 1];
+        options.seed = first_seed + behind;
         options.first_frame = half.samples / frame_samples;
         renderer.update(scene, options);
         renderer.discard();

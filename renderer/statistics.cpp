@@ -16,8 +16,9 @@ std::string bounces_text(const Statistics& statistics) {
     return text;
 }
 
-std::string noise_text(double noise) {
-    return std::isfinite(noise) ? fmt::format("{:.{}f} %", 100.0 * noise, noise < 0.1 ? 1 : 0) : "unknown";
+std::string percent_text(double part) {
+    if (!std::isfinite(part)) return "unknown";
+    return std::abs(part) >= 0.1 ? fmt::format("{:.0f} %", 1e2 * part) : fmt::format("{:.2g} %", 1e2 * part);
 }
 
 }  // namespace farfield

@@ -35,7 +35,7 @@ struct Statistics {
 
 /// "3 bounces; bounce 4 adds 0.3 %", the latter where it was measured; empty before the first picture.
 std::string bounces_text(const Statistics& statistics);
-/// "3.1 %"; "unknown" where it is not finite.
-std::string noise_text(double noise);
+/// "3.1 %" of 0.031; "unknown" where it is not finite.
+std::string percent_text(double part);
 
 }  // namespace farfield

@@ -96,7 +96,6 @@ TEST_F(Farfield, FurnaceIsExactForEveryAoRadius) {
     }
 }
 
-/// In a furnace that emits 1 and reflects half bounce k adds 2^(1-k) to 2 - 2^(2-k).
 TEST_F(Farfield, AutomaticBlurLevelsGoByTheSizeOfThePicture) {
     EXPECT_EQ(blur_levels(3, {4096, 4096}), 3);
     EXPECT_EQ(blur_levels(0, {4096, 4096}), 0);
@@ -108,6 +107,7 @@ TEST_F(Farfield, AutomaticBlurLevelsGoByTheSizeOfThePicture) {
         EXPECT_EQ(read(scene, method, -1).pixels, read(scene, method, 1).pixels);
 }
 
+/// In a furnace that emits 1 and reflects half bounce k adds 2^(1-k) to 2 - 2^(2-k).
 TEST_F(Farfield, AutomaticBouncesStopWhereTheNextAddsLittle) {
     Scene scene;
     const Id shell = apply(scene, InsertNode{scene.root.id, -1, make_node(NodeKind::shell)});

@@ -1,5 +1,7 @@
 #include "ui/measure_panel.h"
 
+#include "renderer/statistics.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -33,10 +35,6 @@ MethodInfo method_info(Method method) {
 std::string seconds_text(double s) {
     if (s >= 1.0) return fmt::format("{:.3g} s", s);
     return s >= 1e-3 ? fmt::format("{:.3g} ms", 1e3 * s) : fmt::format("{:.3g} µs", 1e6 * s);
-}
-
-std::string percent_text(double v) {
-    return std::abs(v) >= 0.1 ? fmt::format("{:.0f} %", 1e2 * v) : fmt::format("{:.2g} %", 1e2 * v);
 }
 
 /// One axis with a logarithmic scale, from the first to the last decade that holds a value, at most a few.
