@@ -200,12 +200,16 @@ void Program::draw(const Texture& target) const {
 
 }  // namespace gl
 
-std::string shader_source(std::string_view name, std::string_view constants) {
+std::string_view shader_text(std::string_view name) {
     const std::string_view text = embedded_shader(name);
     if (text.empty()) throw std::logic_error(fmt::format("no shader {} is built in", name));
+    return text;
+}
+
+std::string shader_source(std::string_view name, std::string_view constants) {
     // A number, not a name, is what core GLSL takes as the file: 1 is common.glsl, 0 the pass's own.
-    return fmt::format("#version 430 core\n{}#line 1 1\n{}\n#line 1 0\n{}", constants, embedded_shader("common.glsl"),
-                       text);
+    return fmt::format("#version 430 core\n{}#line 1 1\n{}\n#line 1 0\n{}", constants, shader_text("common.glsl"),
+                       shader_text(name));
 }
 
 gl::Program load_program(std::string_view name, std::string_view constants) {

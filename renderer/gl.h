@@ -158,7 +158,9 @@ private:
 
 }  // namespace gl
 
-/// The text of renderer/shaders/NAME with the #version line and shaders/common.glsl in front and #line directives so
+/// The text of renderer/shaders/NAME.
+std::string_view shader_text(std::string_view name);
+/// The same with the #version line and shaders/common.glsl in front and #line directives so
 /// that messages name the file.
 std::string shader_source(std::string_view name, std::string_view constants = "");
 /// shader_source compiled; `constants` are lines in front of it.

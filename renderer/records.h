@@ -71,7 +71,8 @@ namespace binding {
 inline constexpr unsigned first_texels = 8;
 inline constexpr unsigned rays = 0, hits = 1, surfaces = 2, paths = 3, materials = 4, lights = 5, direct = 6,
                           geometry = 7, reflectance = 8, far_light = 9, indirect = 10, occlusion = 11, counters = 12,
-                          split_far = 13, split_near = 14, squares = 15;
+                          split_far = 13, split_near = 14, squares = 15, boxes = 16,
+                          members = 17;  // the last two as texels alone
 inline constexpr unsigned frame = 0, parameters = 1;  // of uniform buffers
 }  // namespace binding
 

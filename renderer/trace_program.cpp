@@ -16,9 +16,9 @@
 namespace farfield {
 namespace {
 
-constexpr std::size_t cache_size = 128;      // programs beside those of the scenes that were asked for last
-constexpr std::size_t remembered_codes = 6;  // of scenes: two of each program that an edit asks for
-constexpr int generated_file = 2;            // its number in #line directives
+constexpr std::size_t cache_size = 128;          // programs beside those of the scenes that were asked for last
+constexpr std::size_t remembered_divisions = 6;  // two of each program that an edit asks for
+constexpr int generated_file = 2;                // its number in #line directives
 
 /// Larger scenes are refused: llvmpipe took 33 s to compile 10,500 nodes.
 constexpr std::uint64_t largest_program = 20000;
@@ -46,6 +46,11 @@ constexpr std::string_view not_sharing = "#define shares_rays 0\n";
 /// A dispatch keeps all cores busy with so many groups.
 constexpr std::size_t enough_invocations = 1024;
 
+/// Of llvmpipe's 65,535 turns (see has_loops) for the walks of an invocation's rays through a family: lanes wait for
+/// each other, and some rays walk longer than BoxTree::longest_walk. With 1 to 60 rays each times differ by less than
+/// 10 %.
+constexpr std::uint64_t safe_turns = 4096;
+
 /// The driver's log with the name of the node whose line it complains about. Logs name lines as 2:17(8) or 2(17).
 std::string explain(const Scene& scene, const GeneratedScene& generated, const std::string& log) {
     static const std::regex position(R"((?:^|\n)[^\n]*?\b2[:(](\d+))");
@@ -57,9 +62,18 @@ std::string explain(const Scene& scene, const GeneratedScene& generated, const s
     return node ? fmt::format("node \"{}\": {}", display_name(*node), log) : log;
 }
 
-/// What programs are made of.
-std::vector<Scene> local_parts(const Scene& scene, Id tuned) {
-    return local_origin(scene.camera) == glm::vec3(0.0f) ? scene_parts(scene) : scene_parts(local_scene(scene, tuned));
+/// Whether both come to the same programs.
+bool same_content(const Scene& a, const Scene& b) {
+    return a.root == b.root && a.definitions == b.definitions && local_origin(a.camera) == local_origin(b.camera) &&
+           std::equal(a.materials.begin(), a.materials.end(), b.materials.begin(), b.materials.end(),
+                      [](const Material& x, const Material& y) { return x.id == y.id; });
+}
+
+/// Leaves out the nodes with these ids, which are sorted, and what is below them.
+void remove(Node& node, const std::vector<Id>& ids) {
+    std::erase_if(node.children,
+                  [&](const Node& child) { return std::binary_search(ids.begin(), ids.end(), child.id); });
+    for (Node& child : node.children) remove(child, ids);
 }
 
 /// llvmpipe ends all loops of an invocation once they have come to 65,535 turns together, and with them the rays that
@@ -74,12 +88,32 @@ bool has_loops(std::string_view code) {
     return false;
 }
 
+/// The numbers of a family's member as its code reads them; no scene else has any.
+std::string members_source(std::size_t vectors) {
+    std::string variables, loads;
+    for (std::size_t i = 0; i < vectors; ++i) {
+        variables += fmt::format("vec4 member{};\n", i);
+        loads += fmt::format("    member{} = load(member_texels, {}u * member + {}u);\n", i, vectors, i);
+    }
+    if (vectors > 0)
+        variables += fmt::format("layout(binding = {}) uniform usamplerBuffer member_texels;\n",
+                                 binding::first_texels + binding::members);
+    return fmt::format("{}void load_member(uint member) {{\n{}}}\n", variables, loads);
+}
+
+/// Of what the march calls; the function for materials is none of that.
+bool marches_in_loops(const GeneratedScene& generated) {
+    const std::string_view text = generated.text;
+    return has_loops(text.substr(0, generated.surface_at)) || has_loops(text.substr(generated.march_at));
+}
+
 }  // namespace
 
 std::string scene_kernel_source(const std::string& file, const GeneratedScene& generated, bool shares_rays) {
     const std::string kernel = shader_source(file, shares_rays ? sharing : not_sharing);
     // The scene goes between the common part and the kernel's own, which starts at the second #line directive.
     const std::size_t own = kernel.rfind("#line 1 0\n");
+    const bool marches = file.starts_with("trace");
     const std::size_t count = generated.parameters.size();
     const bool copied = count <= most_copied_parameters;
     std::string text = kernel.substr(0, own), load;
@@ -95,6 +129,7 @@ std::string scene_kernel_source(const std::string& file, const GeneratedScene& g
         text += "float parameter(int i) { return parameter_block[i >> 2][i & 3]; }\n";
     }
     text += fmt::format("void load_parameters() {{\n{}}}\nconst bool flat_field = {};\n", load, generated.flat);
+    text += members_source(generated.member_vectors);
     // Drivers spend a good part of their time on functions that nothing calls.
     const std::string_view all = generated.text;
     const auto from = [&](std::size_t begin, std::size_t length) {
@@ -104,7 +139,9 @@ std::string scene_kernel_source(const std::string& file, const GeneratedScene& g
     text += from(0, generated.surface_at);
     if (kernel.find("scene_surface(") != std::string::npos)
         text += from(generated.surface_at, generated.march_at - generated.surface_at);
-    if (kernel.find("scene_march(") != std::string::npos) text += from(generated.march_at, std::string::npos);
+    if (marches || kernel.find("scene_march(") != std::string::npos)
+        text += from(generated.march_at, std::string::npos);
+    if (marches) text += fmt::format("#line 1 3\n{}", shader_text("march.glsl"));
     return text + kernel.substr(own);
 }
 
@@ -118,32 +155,62 @@ TracePrograms::Cache::const_iterator TracePrograms::find(const std::string& key)
     return std::find_if(cache_.begin(), cache_.end(), [&](const auto& entry) { return entry->key == key; });
 }
 
-TracePrograms::Codes TracePrograms::codes(const Scene& scene, Tier tier, Id tuned) const {
-    const bool by_distance = marches_by_distance(scene);
-    const auto same_content = [](const Scene& a, const Scene& b) {
-        return a.root == b.root && a.definitions == b.definitions &&
-               std::equal(a.materials.begin(), a.materials.end(), b.materials.begin(), b.materials.end(),
-                          [](const Material& x, const Material& y) { return x.id == y.id; });
-    };
-    Codes codes;
-    for (Scene& part : local_parts(scene, tuned)) {
-        const Id tuned_here = find_node(part, tuned) ? tuned : 0;
-        std::shared_ptr<const Code> code;
-        for (const Codes& others : codes_)
-            for (const auto& other : others)
-                if (!code && other->tier == tier && other->tuned == tuned_here && other->by_distance == by_distance &&
-                    same_content(other->part, part))
-                    code = other;
-        if (!code) {
-            GeneratedScene generated = generate(part, tier, tuned_here, by_distance);
-            code = std::make_shared<const Code>(
-                Code{std::move(part), tier, tuned_here, by_distance, std::move(generated)});
-        }
-        codes.push_back(std::move(code));
+const TracePrograms::Codes& TracePrograms::codes(const Scene& scene, Tier tier, Id tuned) const {
+    if (tuned != 0 && !find_node(scene, tuned)) tuned = 0;
+    const auto known = std::find_if(divisions_.begin(), divisions_.end(), [&](const Division& d) {
+        return d.tier == tier && d.tuned == tuned && same_content(d.scene, scene);
+    });
+    if (known != divisions_.end()) {
+        divisions_.splice(divisions_.begin(), divisions_, known);
+    } else {
+        Codes codes = divide(scene, tier, tuned);
+        divisions_.push_front({scene, tier, tuned, std::move(codes)});
+        if (divisions_.size() > remembered_divisions) divisions_.pop_back();
     }
-    codes_.insert(codes_.begin(), codes);
-    if (codes_.size() > remembered_codes) codes_.pop_back();
+    return divisions_.front().codes;
+}
+
+TracePrograms::Codes TracePrograms::divide(const Scene& scene, Tier tier, Id tuned) const {
+    Scene rest = local_scene(scene, tuned);
+    Codes families;
+    if (tier == Tier::specialised && expanded_node_count(rest) > largest_whole_scene)
+        families = take_families(rest, tuned);
+    const bool by_distance = marches_by_distance(rest);
+    Codes codes;
+    if (families.empty() || !is_empty(rest, rest.root))
+        for (Scene& part : scene_parts(rest)) {
+            const Id tuned_here = find_node(part, tuned) ? tuned : 0;
+            std::shared_ptr<const Code> code;
+            for (const Division& division : divisions_)
+                for (const auto& other : division.codes)
+                    if (!code && !other->members && other->tier == tier && other->tuned == tuned_here &&
+                        other->by_distance == by_distance && same_content(other->part, part))
+                        code = other;
+            if (!code) {
+                GeneratedScene generated = generate(part, tier, tuned_here, by_distance);
+                code = std::make_shared<const Code>(
+                    Code{std::move(part), tier, tuned_here, by_distance, std::move(generated), {}});
+            }
+            codes.push_back(std::move(code));
+        }
+    codes.insert(codes.end(), families.begin(), families.end());
     return codes;
+}
+
+TracePrograms::Codes TracePrograms::take_families(Scene& scene, Id tuned) const {
+    Codes families;
+    std::vector<Id> taken;
+    for (Family& family : find_families(scene, layouts_, tuned)) {
+        BoxTree boxes = make_box_tree(family.bounds);
+        if (schedule_.shares_rays && (boxes.longest_walk > safe_turns || marches_in_loops(family.code))) continue;
+        taken.insert(taken.end(), family.members.begin(), family.members.end());
+        families.push_back(std::make_shared<const Code>(
+            Code{Scene(), Tier::specialised, 0, false, std::move(family.code),
+                 Members{family.members.size(), std::move(family.numbers), std::move(boxes)}}));
+    }
+    std::sort(taken.begin(), taken.end());
+    remove(scene.root, taken);
+    return families;
 }
 
 int TracePrograms::missing(const Scene& scene, Tier tier, Id tuned) const {
@@ -160,7 +227,7 @@ int TracePrograms::compile_one(const Scene& scene, Tier tier, Id tuned) {
     std::erase_if(missing, is_there);
     if (missing.empty()) return 0;
     if (!is_begun(*missing.front())) compile_milliseconds_ = 0.0;
-    compile_next(*missing.front());
+    compile_next(*missing.front(), scene);
     std::erase_if(missing, is_there);  // others may have the same code
     return static_cast<int>(missing.size());
 }
@@ -169,67 +236,73 @@ void TracePrograms::select(const Scene& scene, Tier tier, Id tuned) {
     check_size(scene);
     std::vector<Part> parts;
     bool compiled = false;
+    unsigned first = 0;
     for (const auto& code : codes(scene, tier, tuned)) {
         const GeneratedScene& generated = code->generated;
         const auto found = find(generated.key);
         if (found == cache_.end()) {
             if (!std::exchange(compiled, true) && !is_begun(*code)) compile_milliseconds_ = 0.0;
-            while (find(generated.key) == cache_.end()) compile_next(*code);
+            while (find(generated.key) == cache_.end()) compile_next(*code, scene);
         } else {
             cache_.splice(cache_.begin(), cache_, found);
         }
         Part& part = parts.emplace_back();
         part.programs = cache_.front();
         part.code = code;
+        part.first = first;
         part.parameters.upload(std::span<const float>(generated.parameters));
+        if (code->members) {
+            part.numbers.upload(std::span<const float>(code->members->numbers));
+            part.boxes.upload(std::span<const BoxTree::Node>(code->members->boxes.nodes));
+        }
         // Hits lie up to an epsilon before the surface; rays that run along the bounds must not lose them to rounding.
         part.bounds = {generated.bounds.low - 0.01f * (1.0f + glm::abs(generated.bounds.low)),
                        generated.bounds.high + 0.01f * (1.0f + glm::abs(generated.bounds.high))};
+        first += static_cast<unsigned>(part.members());
     }
     current_ = std::move(parts);
 }
 
 bool TracePrograms::is_begun(const Code& code) const { return begun_ && begun_->key == code.generated.key; }
 
-void TracePrograms::compile_next(const Code& code) {
+void TracePrograms::compile_next(const Code& code, const Scene& scene) {
     if (is_begun(code))
-        compile_surface(code);
+        compile_surface(code, scene);
     else
-        compile_march(code);
+        compile_march(code, scene);
 }
 
-void TracePrograms::compile_march(const Code& code) {
+void TracePrograms::compile_march(const Code& code, const Scene& scene) {
     const GeneratedScene& generated = code.generated;
     GLint largest_block = 0;
     glGetIntegerv(GL_MAX_UNIFORM_BLOCK_SIZE, &largest_block);
     if (generated.parameters.size() * sizeof(float) > static_cast<std::size_t>(largest_block))
         throw ShaderError(fmt::format("{} live parameters do not fit into this driver's uniform block of {} bytes",
                                       generated.parameters.size(), largest_block));
-    gl::Program march = compiled(code, "the scene's trace kernel", "trace.glsl");
-    // Of what the march calls; the function for materials is none of that.
-    const bool loops = has_loops(std::string_view(generated.text).substr(0, generated.surface_at)) ||
-                       has_loops(std::string_view(generated.text).substr(generated.march_at));
-    begun_ = Entry{generated.key, loops ? 1 : schedule_.rays_each, std::move(march), {}};
+    gl::Program march =
+        compiled(code, scene, "the scene's trace kernel", code.members ? "trace_family.glsl" : "trace.glsl");
+    begun_ = Entry{generated.key, marches_in_loops(generated) ? 1 : schedule_.rays_each, std::move(march), {}};
 }
 
 /// Of the part that has been begun.
-void TracePrograms::compile_surface(const Code& code) {
-    begun_->surface = compiled(code, "the scene's surface kernel", "surface.glsl");
+void TracePrograms::compile_surface(const Code& code, const Scene& scene) {
+    begun_->surface = compiled(code, scene, "the scene's surface kernel", "surface.glsl");
     ++compiles_;
-    structures_.insert(std::hash<std::string>()(generate(code.part, Tier::live).key));
+    structures_.insert(
+        std::hash<std::string>()(code.members ? code.generated.key : generate(code.part, Tier::live).key));
     cache_.push_front(std::make_shared<const Entry>(*std::exchange(begun_, {})));
     std::size_t most = cache_size;
-    for (const Codes& parts : codes_) most += parts.size();
+    for (const Division& division : divisions_) most += division.codes.size();
     while (cache_.size() > most) cache_.pop_back();
 }
 
-gl::Program TracePrograms::compiled(const Code& code, const char* name, const char* file) {
+gl::Program TracePrograms::compiled(const Code& code, const Scene& scene, const char* name, const char* file) {
     const auto start = std::chrono::steady_clock::now();
     std::optional<gl::Program> program;
     try {
         program.emplace(name, scene_kernel_source(file, code.generated, schedule_.shares_rays));
     } catch (const ShaderError& error) {
-        throw ShaderError(explain(code.part, code.generated, error.what()));
+        throw ShaderError(explain(scene, code.generated, error.what()));
     }
     // Drivers compile compute shaders at their first dispatch: have that now, with no ray to trace.
     gl::Buffer parameters("parameters");
@@ -243,28 +316,43 @@ gl::Program TracePrograms::compiled(const Code& code, const char* name, const ch
     return std::move(*program);
 }
 
+void TracePrograms::bind(const Part& part) {
+    part.parameters.bind_uniform(binding::parameters);
+    if (!part.code->members) return;
+    part.numbers.bind_texels(binding::first_texels + binding::members, GL_RGBA32UI);
+    part.boxes.bind_texels(binding::first_texels + binding::boxes, GL_RGBA32UI);
+}
+
 void TracePrograms::run(const gl::Program& kernel, std::size_t part, std::size_t count) const {
-    current_[part].parameters.bind_uniform(binding::parameters);
+    bind(current_[part]);
     kernel.set("ray_count", static_cast<unsigned>(count));
+    kernel.set("member_count", static_cast<unsigned>(current_[part].members()));
     kernel.run(count);
 }
 
 std::size_t TracePrograms::rays_each(std::size_t part, std::size_t count) const {
-    return std::clamp<std::size_t>(count / enough_invocations, 1, current_[part].programs->rays_each);
+    std::size_t most = current_[part].programs->rays_each;
+    if (const auto& members = current_[part].code->members)
+        most = std::min<std::size_t>(most, std::max<std::uint64_t>(safe_turns / members->boxes.longest_walk, 1));
+    return std::clamp<std::size_t>(count / enough_invocations, 1, most);
 }
 
-void TracePrograms::march(std::size_t part, std::size_t count, bool any_hit) const {
-    const auto& [programs, code, parameters, bounds] = current_[part];
-    const gl::Program& march = programs->march;
-    const std::size_t each = rays_each(part, count);
-    parameters.bind_uniform(binding::parameters);
+void TracePrograms::march(std::size_t number, std::size_t count, bool any_hit) const {
+    const Part& part = current_[number];
+    const gl::Program& march = part.programs->march;
+    const std::size_t each = rays_each(number, count);
+    bind(part);
     march.set("ray_count", static_cast<unsigned>(count));
     if (schedule_.shares_rays) march.set("rays_each", static_cast<unsigned>(each));
     march.set("pause", schedule_.pause);
-    march.set("part", static_cast<unsigned>(part));
+    march.set("part", part.first);
     march.set("any_hit", any_hit ? 1 : 0);
-    march.set("scene_low", bounds.low);
-    march.set("scene_high", bounds.high);
+    if (part.code->members) {
+        march.set("node_count", static_cast<unsigned>(part.code->members->boxes.size));
+    } else {
+        march.set("scene_low", part.bounds.low);
+        march.set("scene_high", part.bounds.high);
+    }
     march.run((count + each - 1) / each);
 }
 
@@ -278,7 +366,7 @@ void TracePrograms::trace(std::size_t count, bool surfaces, bool counting) const
     if (counting) this->count(count);
     for (std::size_t part = 0; surfaces && part < current_.size(); ++part) {
         const gl::Program& surface = current_[part].programs->surface;
-        surface.set("part", static_cast<unsigned>(part));
+        surface.set("part", current_[part].first);
         run(surface, part, count);
     }
 }

@@ -1,10 +1,13 @@
 // The programs made from scenes: trace.glsl with the generated distance function in front, for each part of a large
-// scene (sdf/scene_parts.h). Two tiers (sdf/codegen.h); a cache by the code's text, so that undo and redo find their
-// programs again, and so do the parts that an edit has not touched.
+// scene (sdf/scene_parts.h), and trace_family.glsl for each of its families (sdf/families.h). Two tiers
+// (sdf/codegen.h); a cache by the code's text, so that undo and redo find their programs again, and so do the parts
+// that an edit has not touched.
 #pragma once
 
 #include "renderer/gl.h"
+#include "sdf/box_tree.h"
 #include "sdf/codegen.h"
+#include "sdf/families.h"
 
 #include <list>
 #include <memory>
@@ -52,30 +55,50 @@ private:
         gl::Program march, surface;
     };
     using Cache = std::list<std::shared_ptr<const Entry>>;
+    /// What rays need of a family beside its code.
+    struct Members {
+        std::size_t count;
+        std::vector<float> numbers;
+        BoxTree boxes;
+    };
     /// Code of a part, kept as long as scenes have that part, because writing it all anew for each move of a hand takes
     /// milliseconds.
     struct Code {
-        Scene part;
+        Scene part;  ///< empty for a family
         Tier tier;
         Id tuned;  ///< 0 where it is elsewhere
         bool by_distance;
         GeneratedScene generated;
+        std::optional<Members> members;
     };
     struct Part {
         std::shared_ptr<const Entry> programs;
         std::shared_ptr<const Code> code;
-        gl::Buffer parameters{"parameters"};
+        gl::Buffer parameters{"parameters"}, numbers{"numbers of members"}, boxes{"boxes of members"};
         Box bounds;
+        unsigned first = 0;  ///< what stands for it in hits, for its first member if it is a family
+        std::size_t members() const { return code->members ? code->members->count : 1; }
     };
     using Codes = std::vector<std::shared_ptr<const Code>>;
-    Codes codes(const Scene& scene, Tier tier, Id tuned) const;
+    /// Of a scene, in the order in which its parts are traced.
+    struct Division {
+        Scene scene;  ///< what programs are made of, and no more
+        Tier tier;
+        Id tuned;
+        Codes codes;
+    };
+    const Codes& codes(const Scene& scene, Tier tier, Id tuned) const;
+    Codes divide(const Scene& scene, Tier tier, Id tuned) const;
+    /// Takes the families out of `scene`.
+    Codes take_families(Scene& scene, Id tuned) const;
     Cache::const_iterator find(const std::string& key) const;
     /// Its march kernel, then its surface kernel, which completes it.
-    void compile_next(const Code& code);
+    void compile_next(const Code& code, const Scene& scene);
     bool is_begun(const Code& code) const;
-    void compile_march(const Code& code);
-    void compile_surface(const Code& code);
-    gl::Program compiled(const Code& code, const char* name, const char* file);
+    void compile_march(const Code& code, const Scene& scene);
+    void compile_surface(const Code& code, const Scene& scene);
+    gl::Program compiled(const Code& code, const Scene& scene, const char* name, const char* file);
+    static void bind(const Part& part);
 
     /// See trace.glsl.
     struct Schedule {
@@ -86,9 +109,10 @@ private:
     Schedule schedule_;
     gl::Program count_ = load_program("count.glsl");
 
-    mutable std::vector<Codes> codes_;  ///< of the last calls
-    Cache cache_;                       ///< most recently used first
-    std::optional<Entry> begun_;        ///< its surface kernel is to follow
+    mutable std::list<Division> divisions_;  ///< of the last calls
+    mutable NumberLayouts layouts_;
+    Cache cache_;                 ///< most recently used first
+    std::optional<Entry> begun_;  ///< its surface kernel is to follow
     std::vector<Part> current_;
     std::set<std::size_t> structures_;  ///< hashes of the live code of every scene that was compiled
     int compiles_ = 0;

@@ -64,6 +64,8 @@ CodeLines write(const FieldTree& tree, ParameterBlock& block, const CodeNames& n
         start = end + 1;
     }
     all.append(custom);
+    generated.own_at = all.text.size();
+    generated.own_key_at = all.key.size();
     all.append(distance);
     all.add("");
     generated.surface_at = all.text.size();
@@ -83,8 +85,11 @@ GeneratedScene generate(const Scene& scene, Tier tier, Id tuned) {
 }
 
 GeneratedScene generate(const Scene& scene, Tier tier, Id tuned, bool by_distance) {
+    return generate(FieldTree(scene), tier, tuned, by_distance);
+}
+
+GeneratedScene generate(const FieldTree& tree, Tier tier, Id tuned, bool by_distance) {
     GeneratedScene generated;
-    const FieldTree tree(scene);
     ParameterBlock block(tree, tier, tuned);
     const CodeNames names(tree);
     CodeLines all = write(tree, block, names, by_distance, generated);

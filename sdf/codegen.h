@@ -14,6 +14,8 @@
 
 namespace farfield {
 
+struct FieldTree;
+
 enum class Tier { live, specialised };
 
 struct GeneratedScene {
@@ -25,6 +27,9 @@ struct GeneratedScene {
     /// Where in `text` the functions begin that are for scene_surface alone, and those for scene_march alone: a program
     /// with one of the two needs no more of the rest than what stands before the first.
     std::size_t surface_at = 0, march_at = 0;
+    /// Where in `text` and in `key` ends what does not depend on the nodes' numbers but for those that the code of
+    /// custom nodes holds: library and custom code.
+    std::size_t own_at = 0, own_key_at = 0;
     /// The code without comments. Equal keys mean equal programs: renaming a node changes the text alone, and in the
     /// live tier no parameter edit changes the key.
     std::string key;
@@ -34,6 +39,9 @@ struct GeneratedScene {
     std::vector<Id> line_nodes;
     /// Whether the field can be much flatter than the distance: bounds of stretched space, some primitives.
     bool flat = false;
+    /// Of a family (sdf/families.h): so many vec4 of numbers each of its members has. The program needs them as
+    /// `member0`, `member1`, ...; 0 for a scene that is no family.
+    std::size_t member_vectors = 0;
     /// Box around all surfaces, world frame; a ray outside meets nothing.
     Box bounds;
 };
@@ -46,5 +54,6 @@ GeneratedScene generate(const Scene& scene, Tier tier, Id tuned = 0);
 bool marches_by_distance(const Scene& scene);
 /// The same, said for a part of a scene.
 GeneratedScene generate(const Scene& part, Tier tier, Id tuned, bool by_distance);
+GeneratedScene generate(const FieldTree& part, Tier tier, Id tuned, bool by_distance);
 
 }  // namespace farfield

@@ -238,6 +238,62 @@ FieldTree::FieldTree(const Scene& scene) {
     if (!is_empty(scene.root, prepared.filled)) root = prepare(scene.root, 0, prepared);
 }
 
+void move(FieldNode& node, glm::vec3 translate, const glm::mat3& to_own) {
+    node.translate = translate;
+    node.to_own = to_own;
+    node.extent.box = to_parent(node, node.region);
+}
+
+bool is_hard_union(const FieldNode& node) {
+    const KindInfo& kind = *node.kind;
+    return kind.role == Role::combine && kind.when_zero && kind.gather == Gather::any &&
+           std::all_of(node.values.begin(), node.values.end(), [](glm::vec3 v) { return v == glm::vec3(0.0f); });
+}
+
+namespace {
+
+void open(FieldNode node, std::vector<FieldNode>& united) {
+    if (!is_hard_union(node)) {
+        united.push_back(std::move(node));
+        return;
+    }
+    for (FieldNode& child : node.children) {
+        child.scale *= node.scale;
+        // A vector times a matrix is the transposed matrix times the vector.
+        move(child, node.translate + node.scale * (child.translate * node.to_own), child.to_own * node.to_own);
+        open(std::move(child), united);
+    }
+}
+
+/// Copies the definitions that the node shows to `tree`, each after those that it uses itself.
+void take_definitions(FieldNode& node, const std::vector<FieldNode>& all, std::map<std::size_t, std::size_t>& taken,
+                      FieldTree& tree) {
+    for (FieldNode& child : node.children) take_definitions(child, all, taken, tree);
+    if (node.kind->role != Role::instance) return;
+    if (!taken.contains(node.definition)) {
+        FieldNode definition = all[node.definition];
+        take_definitions(definition, all, taken, tree);
+        taken[node.definition] = tree.definitions.size();
+        tree.definitions.push_back(std::move(definition));
+    }
+    node.definition = taken[node.definition];
+}
+
+}  // namespace
+
+std::vector<FieldTree> united(FieldTree tree) {
+    std::vector<FieldNode> nodes;
+    if (tree.root) open(std::move(*tree.root), nodes);
+    std::vector<FieldTree> trees;
+    for (FieldNode& node : nodes) {
+        FieldTree& one = trees.emplace_back();
+        std::map<std::size_t, std::size_t> taken;
+        take_definitions(node, tree.definitions, taken, one);
+        one.root = std::move(node);
+    }
+    return trees;
+}
+
 const FieldNode* find(const FieldNode& node, Id id) {
     if (node.id == id) return &node;
     for (const FieldNode& child : node.children)

@@ -58,6 +58,7 @@ struct FieldNode {
 };
 
 struct FieldTree {
+    FieldTree() = default;
     /// The scene must have no nesting problem (see scene.h).
     explicit FieldTree(const Scene& scene);
 
@@ -76,6 +77,14 @@ Extent content_extent(const FieldNode& node);
 std::optional<Box> world_bounds(const FieldTree& tree, Id id);
 /// As world_bounds, without those parts of unions that have no end; bounded, and none where nothing is.
 std::optional<Box> finite_bounds(const FieldTree& tree, Id id);
+
+/// Gives the node another place in its parent's frame.
+void move(FieldNode& node, glm::vec3 translate, const glm::mat3& to_own);
+
+/// Whether the node is nothing but all of its children.
+bool is_hard_union(const FieldNode& node);
+/// The scene with its hard unions opened: what they unite, each with its place in the world.
+std::vector<FieldTree> united(FieldTree tree);
 
 /// The node below `node` (itself included) with this id; null where it adds no shape.
 const FieldNode* find(const FieldNode& node, Id id);

@@ -3,10 +3,13 @@
 
 #include "renderer/context.h"
 #include "renderer/gl.h"
+#include "renderer/image.h"
 
 #include <glm/vec4.hpp>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <span>
 #include <string>
@@ -24,6 +27,17 @@ protected:
     void TearDown() override { context_->release(); }
     std::unique_ptr<Context> context_;
 };
+
+/// How many pixels differ by more than `tolerance` in a channel.
+inline std::size_t differing_pixels(const Image& a, const Image& b, float tolerance) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); i += 3) {
+        float most = 0.0f;
+        for (std::size_t k = i; k < i + 3; ++k) most = std::max(most, std::abs(a.pixels[k] - b.pixels[k]));
+        count += most > tolerance ? 1 : 0;
+    }
+    return count;
+}
 
 /// `float function(vec3)` of these GLSL functions at each point; `float parameter(int)` answers the parameters.
 inline std::vector<float> gpu_values(const std::string& functions, const std::string& function,

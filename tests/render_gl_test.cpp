@@ -7,6 +7,7 @@
 #include "sdf/edit.h"
 #include "sdf/scene_file.h"
 #include "sdf/scene_parts.h"
+#include "tests/gl_test.h"
 #include "tests/test_support.h"
 
 #include <fmt/format.h>
@@ -111,8 +112,9 @@ TEST_F(Render, ALargeSceneInPartsGivesThePictureOfTheWhole) {
         EXPECT_NEAR(static_cast<double>(rays), static_cast<double>(renderer_->statistics().rays),
                     0.001 * static_cast<double>(rays))
             << name;
-        EXPECT_LE(compare(apart, together).rmse, 6e-3) << name;
-        EXPECT_LE(compare(depth, whole_depth).rmse, 0.02) << name;
+        // A few rays that graze an edge meet it in one of the two.
+        EXPECT_LE(differing_pixels(apart, together, 0.1f), 12u) << name << " of 6144";
+        EXPECT_LE(differing_pixels(depth, whole_depth, 0.02f), 12u) << name;
     }
 }
 
@@ -151,22 +153,26 @@ TEST_F(Render, NoRayIsLostWhereManyNodesTakeLoops) {
 TEST_F(Render, AnEditOfALargeSceneCompilesItsOwnPart) {
     Scene scene = bundled("helix");
     render(scene, 1);
-    const int parts = renderer_->statistics().structural_compiles;
-    EXPECT_EQ(parts, static_cast<int>(scene_parts(scene).size()));
+    const auto compiles = [&] {
+        return renderer_->statistics().structural_compiles + renderer_->statistics().specialisations;
+    };
+    const int parts = compiles();
+    EXPECT_GE(parts, 3);
+    EXPECT_LT(parts, static_cast<int>(scene_parts(scene).size())) << "two of them are families";
     apply(scene, InsertNode{scene.root.id, 2, make_node(NodeKind::sphere)});
     FrameOptions options = small;
     render(scene, 1, options);
-    EXPECT_LE(renderer_->statistics().structural_compiles + renderer_->statistics().specialisations, parts + 2);
+    EXPECT_LE(compiles(), parts + 2);
     // All that the selected node needs, one kernel at a time: march and surface.
     options.tuned = scene.root.children[2].id;
-    const int before = renderer_->statistics().specialisations;
+    const int before = compiles();
     int compiled = 0;
     for (; renderer_->needs_compile(scene, options.tier, options.tuned); ++compiled)
         renderer_->compile_one(scene, options.tier, options.tuned);
     EXPECT_EQ(compiled, 2);
-    EXPECT_EQ(renderer_->statistics().specialisations, before + 1);
+    EXPECT_EQ(compiles(), before + 1);
     renderer_->update(scene, options);
-    EXPECT_EQ(renderer_->statistics().specialisations, before + 1);
+    EXPECT_EQ(compiles(), before + 1);
 }
 
 TEST_F(Render, SwappingTiersDiscardsNothing) {

@@ -104,14 +104,9 @@ TEST_F(RenderThreadTest, ThePictureRestsAtItsNoiseAndGoesOnForLess) {
 }
 
 TEST_F(RenderThreadTest, ALargeSceneTellsHowFarItIsAndMakesWayForANewerOne) {
-    Scene large = load_scene(std::filesystem::path(FARFIELD_SCENES) / "helix.json");
-    const Node helix = large.root;
-    for (int i = 0; i < 12; ++i) {
-        Node copy = helix;
-        visit_nodes(copy, [&](Node& node) { node.id = large.new_id(); });
-        copy.transform.translate.x = static_cast<float>(i + 1);
-        large.root.children.push_back(std::move(copy));
-    }
+    Scene large;
+    std::mt19937 random(1);
+    while (count_nodes(large) < 400) apply(large, InsertNode{large.root.id, -1, random_tree(2, random)});
     submit(large);
     const RenderedPicture waiting = wait([](const RenderedPicture& p) { return p.compiled > 0; });
     EXPECT_GT(waiting.to_compile, 8);

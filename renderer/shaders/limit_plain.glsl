@@ -4,11 +4,13 @@ layout(local_size_x = 64) in;
 
 uniform uint ray_count;
 uniform int evaluations;
+uniform uint member_count;  // of a family; else 1
 
 void main() {
     load_parameters();
     uint i = gl_GlobalInvocationID.x;
     if (i >= ray_count) return;
+    load_member(i % member_count);
     Ray ray = load_ray(i);
     float t = 0.0, stride = min(ray.reach, 10.0) / float(evaluations);
     int k = 0;

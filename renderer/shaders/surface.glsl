@@ -4,7 +4,8 @@
 layout(local_size_x = 64) in;
 
 uniform uint ray_count;
-uniform uint part;  // of the scene; the others' hits are left alone
+uniform uint part;          // of the scene; the others' hits are left alone
+uniform uint member_count;  // of a family; else 1
 
 // Of the gradient around a surface, where the field is that of a distance.
 const float least_steepness = flat_field ? 0.05 : 0.8;
@@ -14,7 +15,9 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= ray_count) return;
     Hit hit = load_hit(i);
-    if (hit.distance < 0.0 || hit.steps >> part_shift != part) return;
+    uint member = (hit.steps >> part_shift) - part;
+    if (hit.distance < 0.0 || member >= member_count) return;
+    load_member(member);
     Ray ray = load_ray(i);
     float t = hit.distance;
     vec3 p = ray.origin + t * ray.direction;
