@@ -184,7 +184,7 @@ std::string command_names(CLI::App& app) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
-int run(int argc, char** argv) {
+int run_command_line(int argc, char** argv) {
     CLI::App app{"Farfield: an editor for signed-distance-field scenes with indirect light"};
     app.footer(
         "Without a command the editor opens, on SCENE if given. Scene files are described in scenes/README.md.\n"
@@ -371,4 +371,4 @@ int run(int argc, char** argv) {
 }  // namespace
 }  // namespace farfield
 
-int main(int argc, char** argv) { return farfield::run(argc, argv); }
+int main(int argc, char** argv) { return farfield::run_command_line(argc, argv); }

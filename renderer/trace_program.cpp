@@ -200,7 +200,7 @@ TracePrograms::Codes TracePrograms::divide(const Scene& scene, Tier tier, Id tun
 TracePrograms::Codes TracePrograms::take_families(Scene& scene, Id tuned) const {
     Codes families;
     std::vector<Id> taken;
-    for (Family& family : find_families(scene, layouts_, tuned)) {
+    for (Family& family : families_.find(scene, tuned)) {
         BoxTree boxes = make_box_tree(family.bounds);
         if (schedule_.shares_rays && (boxes.longest_walk > safe_turns || marches_in_loops(family.code))) continue;
         taken.insert(taken.end(), family.members.begin(), family.members.end());

@@ -110,7 +110,7 @@ private:
     gl::Program count_ = load_program("count.glsl");
 
     mutable std::list<Division> divisions_;  ///< of the last calls
-    mutable NumberLayouts layouts_;
+    mutable FamilyFinder families_;
     Cache cache_;                 ///< most recently used first
     std::optional<Entry> begun_;  ///< its surface kernel is to follow
     std::vector<Part> current_;

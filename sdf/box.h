@@ -40,6 +40,7 @@ struct Box {
             }
         return box.valid();
     }
+    friend bool operator==(const Box&, const Box&) = default;
     Box valid() const {
         const glm::vec3 middle = centre();
         return {glm::clamp(glm::min(low, middle), -unbounded, unbounded),

@@ -1,7 +1,6 @@
 #include "sdf/families.h"
 
 #include "sdf/code_lines.h"
-#include "sdf/field_tree.h"
 #include "sdf/parameter_block.h"
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 #include <cctype>
 #include <charconv>
 #include <functional>
+#include <map>
 #include <span>
 #include <string_view>
 #include <unordered_map>
@@ -23,7 +23,8 @@ namespace {
 /// quarter by families of two.
 constexpr std::size_t fewest_members = 4, fewest_nodes = 32;
 
-constexpr std::size_t most_layouts = 256;
+/// All is forgotten where there were more.
+constexpr std::size_t most_codes = 16384;
 
 /// The code with `replaced(text of a number)` for each of its floats and unsigned numbers, in their order. Integers,
 /// which count, are left alone. A vector of one number is one of three.
@@ -85,7 +86,6 @@ constexpr std::size_t placement = 12;
 
 /// Members before it is decided which numbers differ.
 struct Alike {
-    GeneratedScene first;  ///< the code of one, at the origin
     std::vector<Id> members;
     std::vector<Box> bounds;
     std::size_t nodes = 0;                    ///< of each
@@ -204,8 +204,9 @@ GeneratedScene code_of_all(GeneratedScene code, const NumberLayout& layout) {
     return code;
 }
 
-Family family(Alike alike, const NumberLayout& layout) {
-    Family family{std::move(alike.members), std::move(alike.bounds), code_of_all(std::move(alike.first), layout), {}};
+/// `first`: the code of one, at the origin.
+Family family(Alike alike, GeneratedScene first, const NumberLayout& layout) {
+    Family family{std::move(alike.members), std::move(alike.bounds), code_of_all(std::move(first), layout), {}};
     const std::size_t width = 4 * family.code.member_vectors;
     family.numbers.resize(width * family.members.size());
     for (std::size_t member = 0; member < family.members.size(); ++member)
@@ -219,40 +220,56 @@ Family family(Alike alike, const NumberLayout& layout) {
 
 }  // namespace
 
-std::vector<Family> find_families(const Scene& scene, NumberLayouts& layouts, Id tuned) {
-    std::map<std::string, Alike> all;
-    for (FieldTree& one : united(FieldTree(scene))) {
-        FieldNode& node = *one.root;
+FamilyFinder::Item FamilyFinder::make_item(FieldTree tree) {
+    const GeneratedScene code = generate(tree, Tier::specialised, 0, false);
+    Item item{std::move(tree), 0, 0, {}};
+    std::string without = code.key.substr(0, code.own_key_at);
+    without += replace_numbers(std::string_view(code.key).substr(code.own_key_at), [&](std::string_view number) {
+        item.numbers.push_back(value_of(number));
+        return number.ends_with('u') ? "u" : "f";
+    });
+    item.code = codes_.try_emplace(std::move(without), static_cast<int>(codes_.size())).first->second;
+    item.nodes = count_nodes(*item.tree.root, item.tree);
+    return item;
+}
+
+std::vector<Family> FamilyFinder::find(const Scene& scene, Id tuned) {
+    if (codes_.size() > most_codes) codes_.clear(), layouts_.clear(), items_.clear();
+    std::unordered_map<Id, Item> items;
+    std::map<int, Alike> all;
+    for (FieldTree& tree : united(FieldTree(scene))) {
+        FieldNode& node = *tree.root;
+        const Id id = node.id;
         const Box bounds = node.extent.box;
         if (!bounds.is_bounded()) continue;
-        if (tuned != 0 && ParameterBlock(one, Tier::specialised, tuned).is_derived_live(node)) continue;
+        if (tuned != 0 && ParameterBlock(tree, Tier::specialised, tuned).is_derived_live(node)) continue;
         std::vector<float> numbers{node.translate.x, node.translate.y, node.translate.z};
         for (int column = 0; column < 3; ++column)
             for (int row = 0; row < 3; ++row) numbers.push_back(node.to_own[column][row]);
         move(node, glm::vec3(0.0f), glm::mat3(1.0f));
-        GeneratedScene code = generate(one, Tier::specialised, 0, false);
-        std::string without = code.key.substr(0, code.own_key_at);
-        without += replace_numbers(std::string_view(code.key).substr(code.own_key_at), [&](std::string_view number) {
-            numbers.push_back(value_of(number));
-            return number.ends_with('u') ? "u" : "f";
-        });
-        Alike& alike = all[without];
-        if (alike.members.empty()) alike.first = std::move(code), alike.nodes = count_nodes(node, one);
-        alike.members.push_back(node.id);
+        const auto known = items_.find(id);
+        const bool unchanged = known != items_.end() && known->second.tree == tree;
+        const Item& item =
+            items.emplace(id, unchanged ? std::move(known->second) : make_item(std::move(tree))).first->second;
+        numbers.insert(numbers.end(), item.numbers.begin(), item.numbers.end());
+        Alike& alike = all[item.code];
+        alike.nodes = item.nodes;
+        alike.members.push_back(id);
         alike.bounds.push_back(bounds);
         alike.numbers.push_back(std::move(numbers));
     }
+    items_ = std::move(items);
     std::vector<Family> families;
-    if (layouts.size() > most_layouts) layouts.clear();
-    for (auto& [without, alike] : all) {
+    for (auto& [code, alike] : all) {
         if (alike.members.size() < fewest_members || alike.members.size() * alike.nodes < fewest_nodes) continue;
-        const auto known = layouts.find(without);
-        const NumberLayout* before = known == layouts.end() ? nullptr : &known->second;
+        const auto known = layouts_.find(code);
+        const NumberLayout* before = known == layouts_.end() ? nullptr : &known->second;
         if (!before || !serves(*before, alike)) {
             NumberLayout layout = make_layout(alike, before);
-            layouts[without] = std::move(layout);
+            layouts_[code] = std::move(layout);
         }
-        families.push_back(family(std::move(alike), layouts[without]));
+        GeneratedScene first = generate(items_.at(alike.members.front()).tree, Tier::specialised, 0, false);
+        families.push_back(family(std::move(alike), std::move(first), layouts_[code]));
     }
     return families;
 }

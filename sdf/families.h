@@ -8,9 +8,10 @@
 #pragma once
 
 #include "sdf/codegen.h"
+#include "sdf/field_tree.h"
 
-#include <map>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace farfield {
@@ -20,7 +21,6 @@ struct NumberLayout {
     std::vector<int> places;  ///< for each number of the code: which of a member's in the table, or -1: it is a literal
     std::vector<float> literals;  ///< the numbers themselves where they are
     int width = 0;                ///< numbers of each member
-    friend bool operator==(const NumberLayout&, const NumberLayout&) = default;
 };
 
 struct Family {
@@ -30,11 +30,26 @@ struct Family {
     std::vector<float> numbers;  ///< the table: 4 x code.member_vectors for each member
 };
 
-/// The layouts of families met before, by their code without numbers: one that serves still is used again, so that
-/// an edit that makes members more alike needs no new program.
-using NumberLayouts = std::map<std::string, NumberLayout>;
+/// Finds the families of scene after scene: what an edit has not touched is not written as code once more, and a layout
+/// that serves still is used again, so that an edit that makes members more alike needs no new program.
+class FamilyFinder {
+public:
+    /// All families of the scene. Nodes without an end are in none, nor is what contains node `tuned`.
+    std::vector<Family> find(const Scene& scene, Id tuned = 0);
 
-/// All families of the scene. Nodes without an end are in none, nor is what contains node `tuned`.
-std::vector<Family> find_families(const Scene& scene, NumberLayouts& layouts, Id tuned = 0);
+private:
+    /// What hard unions unite, at the origin.
+    struct Item {
+        FieldTree tree;
+        int code;
+        std::size_t nodes;
+        std::vector<float> numbers;
+    };
+    Item make_item(FieldTree tree);
+
+    std::unordered_map<std::string, int> codes_;  ///< without numbers
+    std::unordered_map<int, NumberLayout> layouts_;
+    std::unordered_map<Id, Item> items_;  ///< of the last scene, by their topmost nodes
+};
 
 }  // namespace farfield

@@ -209,6 +209,13 @@ float FieldNode::reach() const {
     return kind->reach(values) * (kind->role == Role::combine ? count : 1.0f);
 }
 
+bool operator==(const FieldNode& a, const FieldNode& b) {
+    return a.id == b.id && a.kind == b.kind && a.values == b.values && a.translate == b.translate &&
+           a.to_own == b.to_own && a.scale == b.scale && a.material == b.material && a.region == b.region &&
+           a.extent.box == b.extent.box && a.guarded == b.guarded && a.definition == b.definition && a.code == b.code &&
+           a.children == b.children;
+}
+
 Extent content_extent(const FieldNode& node) {
     if (node.children.empty()) return node.extent;
     Extent extent = node.children[0].extent;

@@ -55,6 +55,9 @@ struct FieldNode {
     float reach() const;
     /// How much the node would shorten steps at worst: the Lipschitz constant of its field before it is made safe.
     float stretch() const { return code ? code->lipschitz() : kind->stretch ? kind->stretch(values) : 1.0f; }
+
+    /// Whether both come to the same code, whatever they are called.
+    friend bool operator==(const FieldNode& a, const FieldNode& b);
 };
 
 struct FieldTree {
@@ -67,6 +70,8 @@ struct FieldTree {
 
     std::optional<FieldNode> root;       ///< none when the scene adds no shape
     std::vector<FieldNode> definitions;  ///< those that show, each after all that it uses
+
+    friend bool operator==(const FieldTree& a, const FieldTree& b) = default;
 };
 
 /// What the node's children fill together, in its own frame; what a primitive fills itself.

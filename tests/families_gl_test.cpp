@@ -11,7 +11,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
+#include <vector>
 
 namespace farfield {
 namespace {
@@ -75,8 +77,8 @@ protected:
 TEST_F(FamiliesOnGpu, GiveThePictureOfTheWhole) {
     for (unsigned seed = 1; seed <= 3; ++seed) {
         const Scene scene = crowd(44, seed);
-        NumberLayouts layouts;
-        ASSERT_GE(find_families(scene, layouts).size(), 3u);
+        FamilyFinder finder;
+        ASSERT_GE(finder.find(scene).size(), 3u);
         for (const View view : {View::depth, View::normals, View::direct, View::result}) {
             Renderer apart, together;
             const Image a = picture(apart, scene, view), b = picture(together, whole(scene), view);
@@ -99,8 +101,8 @@ TEST_F(FamiliesOnGpu, WhatMovesNeedsNoNewProgram) {
         return renderer.statistics().structural_compiles + renderer.statistics().specialisations;
     };
     const int all = compiles();
-    NumberLayouts layouts;
-    for (const Family& family : find_families(scene, layouts))
+    FamilyFinder finder;
+    for (const Family& family : finder.find(scene))
         for (const std::size_t i : {0u, 5u, 10u}) {
             const ObjectRef node{ObjectType::node, family.members.at(i)};
             apply(scene, SetValue{node, "translate", {0.2f * static_cast<float>(i) - 1.0f, 1.5f, 4.0f}});
@@ -111,6 +113,28 @@ TEST_F(FamiliesOnGpu, WhatMovesNeedsNoNewProgram) {
     EXPECT_GT(differing_pixels(before, after, 0.1f), 100u);
     Renderer other;
     EXPECT_LE(differing_pixels(after, picture(other, whole(scene), View::depth), 0.02f), 25u);
+}
+
+TEST_F(FamiliesOnGpu, ARaysWorkHardlyGrowsWithTheScene) {
+    std::vector<double> evaluations;
+    for (const int count : {10, 1000}) {
+        Scene scene = parse_scene(R"({"farfield": 1, "camera": {"position": [0, 0, 5], "target": [0, 0, 0]},
+            "root": {"kind": "union", "children": [{"kind": "plane", "translate": [0, -1.2, 0]}]}})",
+                                  "molecule");
+        std::mt19937 random(1);
+        const auto number = [&] { return static_cast<float>(random() % 2000) / 1000.0f - 1.0f; };
+        while (static_cast<int>(scene.root.children.size()) <= count) {
+            Node sphere = make_node(NodeKind::sphere);
+            sphere.transform.translate = {number(), number(), number()};
+            sphere.values[0] = glm::vec3(0.62f / std::cbrt(static_cast<float>(count)));
+            apply(scene, InsertNode{scene.root.id, -1, sphere});
+        }
+        Renderer renderer;
+        picture(renderer, scene, View::result);
+        const Statistics& s = renderer.statistics();
+        evaluations.push_back(static_cast<double>(s.evaluations) / static_cast<double>(s.rays));
+    }
+    EXPECT_LT(evaluations[1], 1.5 * evaluations[0]);  // of all thousand spheres by then, without families
 }
 
 /// All rays meet all members' boxes, which takes many turns of the tracer's loops.

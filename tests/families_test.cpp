@@ -84,8 +84,8 @@ TEST(Families, EachMemberHasItsOwnCode) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
         const Scene scene = scene_with_families(seed, 3, 50);
         std::vector<FieldTree> all = united(FieldTree(scene));
-        NumberLayouts layouts;
-        for (const Family& family : find_families(scene, layouts)) {
+        FamilyFinder finder;
+        for (const Family& family : finder.find(scene)) {
             ASSERT_EQ(family.bounds.size(), family.members.size());
             ASSERT_EQ(family.numbers.size(), 4 * family.code.member_vectors * family.members.size());
             for (std::size_t i = 0; i < family.members.size(); ++i, ++members) {
@@ -124,8 +124,8 @@ Scene spheres(int count) {
 }
 
 TEST(Families, WhatIsTheSameStandsInTheCodeAndWhatDiffersInTheTable) {
-    NumberLayouts layouts;
-    const std::vector<Family> families = find_families(spheres(100), layouts);
+    FamilyFinder finder;
+    const std::vector<Family> families = finder.find(spheres(100));
     ASSERT_EQ(families.size(), 1u);
     EXPECT_EQ(families[0].members.size(), 100u);
     EXPECT_EQ(families[0].code.member_vectors, 1u);
@@ -137,10 +137,10 @@ TEST(Families, WhatIsTheSameStandsInTheCodeAndWhatDiffersInTheTable) {
 }
 
 TEST(Families, AnEditNeedsANewProgramOnlyWhenANumberDiffersForTheFirstTime) {
-    NumberLayouts layouts;
+    FamilyFinder finder;
     Scene scene = spheres(100);
     const ObjectRef one{ObjectType::node, scene.root.children[7].id};
-    const auto key = [&] { return find_families(scene, layouts).at(0).code.key; };
+    const auto key = [&] { return finder.find(scene).at(0).code.key; };
     const std::string first = key();
     apply(scene, SetValue{one, "translate", {-3.0f, 0.5f, 1.0f}});
     EXPECT_EQ(key(), first);
@@ -163,14 +163,14 @@ TEST(Families, WhatHasNoEndAndWhatIsTunedIsInNone) {
         const Id id = apply(scene, InsertNode{scene.root.id, -1, make_node(NodeKind::infinite_cylinder)});
         apply(scene, SetValue{{ObjectType::node, id}, "translate", glm::vec3(static_cast<float>(i))});
     }
-    NumberLayouts layouts;
-    ASSERT_EQ(find_families(scene, layouts).size(), 1u);
+    FamilyFinder finder;
+    ASSERT_EQ(finder.find(scene).size(), 1u);
     const Id tuned = scene.root.children[0].id;
-    const std::vector<Family> rest = find_families(scene, layouts, tuned);
+    const std::vector<Family> rest = finder.find(scene, tuned);
     EXPECT_EQ(rest.at(0).members.size(), 99u);
     EXPECT_EQ(std::count(rest[0].members.begin(), rest[0].members.end(), tuned), 0);
-    EXPECT_TRUE(find_families(spheres(31), layouts).empty()) << "literals are faster";
-    EXPECT_TRUE(find_families(Scene(), layouts).empty());
+    EXPECT_TRUE(finder.find(spheres(31)).empty()) << "literals are faster";
+    EXPECT_TRUE(finder.find(Scene()).empty());
 }
 
 /// The boxes whose leaves a ray comes to, in that order.
