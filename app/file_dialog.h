@@ -12,8 +12,8 @@
 
 namespace farfield {
 
-/// Not while a node is dragged: what Dear ImGui shows beside the mouse then may not appear above a new dialog, which would
-/// end the program.
+/// Not while a node is dragged: what Dear ImGui shows beside the mouse then may not appear above a new dialog, which
+/// would end the program.
 inline bool may_open_dialog() { return !ImGui::GetDragDropPayload(); }
 
 class FileDialog {
