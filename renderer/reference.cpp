@@ -1,6 +1,7 @@
 #include "renderer/reference.h"
 
 #include "renderer/metrics.h"
+#include "sdf/codegen.h"
 
 #include <sha2.h>
 
@@ -100,8 +101,11 @@ std::string shader_hash(bool all) {
 std::string reference_key(const Scene& scene, glm::ivec2 size) {
     static const std::string shaders = shader_hash(false);
     const int numbers[] = {version, frame_samples, size.x, size.y};
+    const GeneratedScene geometry = generate(scene, Tier::live);
     const Transport all = transport(with_all_bounces(scene), FrameOptions{});
-    std::string bytes = all.light + all.camera + shaders;
+    std::string bytes = geometry.key;
+    bytes.append(reinterpret_cast<const char*>(geometry.parameters.data()), geometry.parameters.size() * sizeof(float));
+    bytes += all.light + all.camera + shaders;
     bytes.append(reinterpret_cast<const char*>(numbers), sizeof numbers);
     return sha256(bytes);
 }

@@ -80,9 +80,7 @@ std::vector<LightRecord> light_records(const Scene& scene) {
 }  // namespace
 
 Transport transport(const Scene& scene, const FrameOptions& options) {
-    const GeneratedScene generated = generate(scene, Tier::live);
-    Transport result{generated.key, {}};
-    for (const float value : generated.parameters) append_bytes(result.light, value);
+    Transport result{FieldTree(scene), {}, {}};
     for (const MaterialRecord& record : material_records(scene)) append_bytes(result.light, record);
     for (const LightRecord& record : light_records(scene)) append_bytes(result.light, record);
     append_bytes(result.light, frame_record(scene, options));
@@ -123,7 +121,8 @@ bool Renderer::update(const Scene& scene, const FrameOptions& options) {
     Transport now = transport(scene, options);
     const bool changed = now != transport_ || !targets_ || targets_->size != options.size;
     const bool new_occlusion = scene.settings.ao_radius != scene_.settings.ao_radius;
-    const bool has_past = options.reprojection && !options.other && now.light == transport_.light;
+    const bool has_past =
+        options.reprojection && !options.other && now.geometry == transport_.geometry && now.light == transport_.light;
     if (!has_past) past_.drop();
     if (changed) {
         if (has_past) keep_past();

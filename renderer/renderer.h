@@ -12,6 +12,7 @@
 #include "renderer/statistics.h"
 #include "renderer/timers.h"
 #include "renderer/views.h"
+#include "sdf/field_tree.h"
 #include "sdf/scene.h"
 
 #include <chrono>
@@ -42,9 +43,10 @@ struct FrameOptions {
         Batch::capacity;  ///< pixels for each step, at most Batch::capacity; changes no bit of the picture
 };
 
-/// Everything that accumulated samples depend on, as bytes to compare. The size of the picture stands apart.
+/// Everything that accumulated samples depend on, to compare. The size of the picture stands apart.
 struct Transport {
-    std::string light;   ///< geometry (the live code and its parameters), materials, lights, sky, seed, bounces
+    FieldTree geometry;
+    std::string light;   ///< materials, lights, sky, seed, bounces: bytes
     std::string camera;  ///< relative to local_origin, which the light's records are relative to as well
     friend bool operator==(const Transport&, const Transport&) = default;
 };

@@ -210,9 +210,10 @@ float FieldNode::reach() const {
 }
 
 bool operator==(const FieldNode& a, const FieldNode& b) {
-    return a.id == b.id && a.kind == b.kind && a.values == b.values && a.translate == b.translate &&
+    const bool same_code = a.code == b.code || (a.code && b.code && a.code->text() == b.code->text());
+    return same_code && a.kind == b.kind && a.values == b.values && a.translate == b.translate &&
            a.to_own == b.to_own && a.scale == b.scale && a.material == b.material && a.region == b.region &&
-           a.extent.box == b.extent.box && a.guarded == b.guarded && a.definition == b.definition && a.code == b.code &&
+           a.extent.box == b.extent.box && a.guarded == b.guarded && a.definition == b.definition &&
            a.children == b.children;
 }
 
