@@ -133,8 +133,14 @@ void DirectPass::run(const Work& work) const {
     }
 }
 
+const FarLightPass::Leaving& FarLightPass::leaving(const Work& work) const {
+    if (!work.guided) return unguided_;
+    if (!guided_) guided_.emplace("#define guided 1\n");
+    return *guided_;
+}
+
 void FarLightPass::run(const Work& work, unsigned sample_index, int bounces, float near_radius) const {
-    HemisphereRays{sample_index, 0, true, no_limit}.run(hemisphere_, work);
+    HemisphereRays{sample_index, 0, true, no_limit}.run(leaving(work).hemisphere, work);
     for (int bounce = 0; bounce < bounces; ++bounce) {
         if (bounce > 0) go_on(work, sample_index, static_cast<unsigned>(bounce), bounce >= roulette_after);
         follow(work, bounce == 0, bounce + 1 == bounces);
@@ -161,17 +167,18 @@ void FarLightPass::follow(const Work& work, bool first, bool last) const {
 }
 
 void FarLightPass::go_on(const Work& work, unsigned sample_index, unsigned stream, bool roulette) const {
-    continuation_.set("sample_index", sample_index);
-    continuation_.set("stream", stream);
-    continuation_.set("roulette_stream", roulette_stream + stream);
-    continuation_.set("roulette", roulette ? 1 : 0);
-    run_on_pixels(continuation_, work, true);
+    const gl::Program& continuation = leaving(work).continuation;
+    continuation.set("sample_index", sample_index);
+    continuation.set("stream", stream);
+    continuation.set("roulette_stream", roulette_stream + stream);
+    continuation.set("roulette", roulette ? 1 : 0);
+    run_on_pixels(continuation, work, true);
 }
 
 std::vector<double> FarLightPass::measure(const Work& work, int bounces) const {
     std::vector<double> light;
     std::vector<PathRecord> paths(work.rays());
-    HemisphereRays{0, measure_stream, false, no_limit, work.targets.pixels()}.run(hemisphere_, work);
+    HemisphereRays{0, measure_stream, false, no_limit, work.targets.pixels()}.run(leaving(work).hemisphere, work);
     for (int bounce = 0; bounce < bounces; ++bounce) {
         follow(work, bounce == 0, false);
         go_on(work, 0, measure_stream + static_cast<unsigned>(bounce) + 1,

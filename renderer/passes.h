@@ -8,6 +8,7 @@
 #include "sdf/scene.h"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace farfield {
@@ -59,6 +60,7 @@ struct Work {
     std::size_t pixels;
     std::size_t samples;  ///< of far light; the rays of one sample of all pixels stand together
     int light_count;
+    bool guided;  ///< rays are sent to emitters
     bool counting;
     const RayObserver& observer;  ///< or none
     std::size_t rays() const { return pixels * samples; }
@@ -98,11 +100,19 @@ private:
     void follow(const Work& work, bool first, bool last) const;
     /// Adds that and leaves the rays of the next bounce.
     void go_on(const Work& work, unsigned sample_index, unsigned stream, bool roulette) const;
-    gl::Program hemisphere_ = load_program("hemisphere.glsl"),
-                bounce_ = load_program("bounce.glsl", "#define more_follows 1\n"),
+    /// How rays leave surfaces, with and without emitters to send them to.
+    struct Leaving {
+        explicit Leaving(const char* constants)
+            : hemisphere(load_program("hemisphere.glsl", constants)),
+              continuation(load_program("continuation.glsl", constants)) {}
+        gl::Program hemisphere, continuation;
+    };
+    const Leaving& leaving(const Work& work) const;
+    Leaving unguided_{"#define guided 0\n"};
+    mutable std::optional<Leaving> guided_;  ///< made for the first scene with an emitter
+    gl::Program bounce_ = load_program("bounce.glsl", "#define more_follows 1\n"),
                 last_bounce_ = load_program("bounce.glsl", "#define more_follows 0\n"),
-                next_light_ = load_program("next_light.glsl"), continuation_ = load_program("continuation.glsl"),
-                gather_ = load_program("gather.glsl");
+                next_light_ = load_program("next_light.glsl"), gather_ = load_program("gather.glsl");
 };
 
 /// One short ray per pixel within the AO radius; work.samples is 1.
@@ -111,7 +121,8 @@ public:
     void run(const Work& work, unsigned sample_index, float radius) const;
 
 private:
-    gl::Program hemisphere_ = load_program("hemisphere.glsl"), gather_ = load_program("occlusion.glsl");
+    gl::Program hemisphere_ = load_program("hemisphere.glsl", "#define guided 0\n"),
+                gather_ = load_program("occlusion.glsl");
 };
 
 /// The paper's filter: a mip chain of the far light, then a blur of one level.

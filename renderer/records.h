@@ -26,7 +26,7 @@ struct FrameRecord {
     float minimum_step;
     glm::ivec2 image_size;
     std::int32_t step_limit;
-    std::int32_t padding;
+    std::int32_t emitter_count;
 };
 static_assert(sizeof(FrameRecord) == 112);
 
@@ -48,13 +48,21 @@ struct LightRecord {
 };
 static_assert(sizeof(LightRecord) == 32);
 
+struct EmitterRecord {
+    glm::vec3 low;
+    float radiance;
+    glm::vec3 high;
+    float unused;
+};
+static_assert(sizeof(EmitterRecord) == 32);
+
 struct PathRecord {
     glm::vec3 radiance;
     float first_hit;
     glm::vec3 pending;
-    float unused1;
+    float weight;
     glm::vec3 throughput;
-    float unused2;
+    float unused;
 };
 static_assert(sizeof(PathRecord) == 48);
 
@@ -71,8 +79,8 @@ namespace binding {
 inline constexpr unsigned first_texels = 8;
 inline constexpr unsigned rays = 0, hits = 1, surfaces = 2, paths = 3, materials = 4, lights = 5, direct = 6,
                           geometry = 7, reflectance = 8, far_light = 9, indirect = 10, occlusion = 11, counters = 12,
-                          split_far = 13, split_near = 14, squares = 15, boxes = 16,
-                          members = 17;  // the last two as texels alone
+                          split_far = 13, split_near = 14, squares = 15, boxes = 16, members = 17,
+                          emitters = 18;              // the last three as texels alone
 inline constexpr unsigned frame = 0, parameters = 1;  // of uniform buffers
 }  // namespace binding
 

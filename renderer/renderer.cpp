@@ -3,6 +3,7 @@
 #include "sdf/local_scene.h"
 #include "sdf/pick.h"
 
+#include "renderer/emitters.h"
 #include "renderer/records.h"
 
 #include <glm/geometric.hpp>
@@ -142,6 +143,11 @@ bool Renderer::update(const Scene& scene, const FrameOptions& options) {
         const std::vector<LightRecord> lights = light_records(scene);
         materials_.upload(std::span(materials));
         lights_.upload(std::span(lights));
+        if (!has_past) {
+            const std::vector<EmitterRecord> emitters = find_emitters(scene, transport_.geometry);
+            emitter_count_ = static_cast<int>(emitters.size());
+            emitters_.upload(std::span(emitters));
+        }
         restart();
     } else if (new_occlusion) {
         targets_->clear_ao_radius();
@@ -191,6 +197,7 @@ Work Renderer::next_work() const {
             std::min(batch_size_ / samples, targets_->pixels() - first_pixel_),
             samples,
             static_cast<int>(scene_.lights.size()),
+            emitter_count_ > 0,
             options_.counting,
             observer_};
 }
@@ -204,6 +211,7 @@ void Renderer::begin_frame() {
     frame_start_ = std::chrono::steady_clock::now();
     timers_.begin_frame();
     FrameRecord record = frame_record(scene_, options_);
+    record.emitter_count = emitter_count_;
     set_camera(record, scene_.camera, options_.size);
     const glm::vec2 offset = pixel_offset(options_.first_frame + completed_cameras_);
     record.jitter_x = offset.x;
@@ -221,6 +229,7 @@ bool Renderer::step() {
     batch_.bind();
     bind_records(materials_, binding::materials);
     bind_records(lights_, binding::lights);
+    emitters_.bind_texels(binding::first_texels + binding::emitters, GL_RGBA32UI);
     counters_.bind_storage(binding::counters);
     const Work w = next_work();
     if (sample_ < 0) {

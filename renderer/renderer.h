@@ -156,7 +156,8 @@ private:
     Reprojection past_;
     RayObserver observer_;
     Batch batch_;
-    gl::Buffer frame_{"frame"}, materials_{"materials"}, lights_{"lights"}, counters_{"counters"};
+    gl::Buffer frame_{"frame"}, materials_{"materials"}, lights_{"lights"}, emitters_{"emitters"},
+        counters_{"counters"};
     std::optional<Targets> targets_;
     Timers timers_;
 
@@ -177,6 +178,7 @@ private:
     int completed_cameras_ = 0;  ///< frames whose camera pass is in the accumulators
     unsigned far_samples_ = 0;   ///< of every pixel since the last discard
     unsigned occlusion_samples_ = 0;
+    int emitter_count_ = 0;
     int automatic_bounces_ = 0;  ///< enough by the last measurement; 0: none yet
     bool bounces_measured_ = false;
     std::chrono::steady_clock::time_point frame_start_;

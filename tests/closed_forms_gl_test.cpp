@@ -261,5 +261,25 @@ TEST_F(ClosedForms, CoaxialDisc) {
     }
 }
 
+/// Spheres that few of the rays would meet by chance: one of 156 cosine-distributed ones comes to the first. So the
+/// pixels of 16 samples would deviate by three times their mean.
+TEST_F(ClosedForms, SmallSpheresOfLight) {
+    add(plane());
+    Node lamp = sphere(0.2f);
+    lamp.material = add_material(glm::vec3(0.0f), glm::vec3(3.0f));
+    double answer = 0.0;
+    for (const glm::dvec3 at : {glm::dvec3(0.0, 2.5, 0.0), glm::dvec3(2.0, 1.0, 1.0), glm::dvec3(-5.0, 3.0, 2.0)}) {
+        add(lamp, at);
+        answer += 3.0 * 0.2 * 0.2 * at.y / std::pow(glm::length(at), 3.0);
+        look_at_patch({0.0f, 0.0f, 0.0f}, {0.05f, 0.05f, 0.01f});
+        expect(mean(View::coarse, 8), answer);
+        renderer_->discard();
+        const Image image = render(View::coarse, 1);
+        double squares = 0.0;
+        for (const float v : image.pixels) squares += (v - answer) * (v - answer);
+        EXPECT_LT(std::sqrt(squares / static_cast<double>(image.pixels.size())) / answer, 0.6);
+    }
+}
+
 }  // namespace
 }  // namespace farfield

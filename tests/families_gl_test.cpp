@@ -83,11 +83,13 @@ TEST_F(FamiliesOnGpu, GiveThePictureOfTheWhole) {
             Renderer apart, together;
             const Image a = picture(apart, scene, view), b = picture(together, whole(scene), view);
             EXPECT_EQ(count_invalid(a), 0u);
-            // Rounding differs: a few rays that graze an edge meet it in one of the two.
-            EXPECT_LE(differing_pixels(a, b, view == View::result ? 0.1f : 0.02f), 25u)
+            // Rounding differs: a few rays that graze an edge meet it in one of the two, and a few go to another
+            // emitter.
+            const bool result = view == View::result;
+            EXPECT_LE(differing_pixels(a, b, result ? 0.1f : 0.02f), result ? 80u : 25u)
                 << seed << " of 6144, view " << static_cast<int>(view);
             const auto rays = static_cast<double>(together.statistics().rays);
-            EXPECT_NEAR(static_cast<double>(apart.statistics().rays), rays, 0.002 * rays);
+            EXPECT_NEAR(static_cast<double>(apart.statistics().rays), rays, 0.005 * rays);
             EXPECT_EQ(apart.statistics().exhausted_rays, 0u);
         }
     }

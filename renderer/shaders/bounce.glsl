@@ -12,7 +12,7 @@ void main() {
     Ray ray = load_ray(i);
     Hit hit = load_hit(i);
     Path path = load_path(i);
-    if (first_bounce == 1) path = Path(vec3(0.0), no_hit, vec3(0.0), 0.0, vec3(1.0), 0.0);
+    if (first_bounce == 1) path = Path(vec3(0.0), no_hit, vec3(0.0), path.weight, vec3(path.weight), 0.0);
     bool traced = ray.reach > 0.0, found = traced && hit.distance >= 0.0;
     Material m = material_of(found ? hit.material : 0u);
     Surface vertex = Surface(ray.origin + hit.distance * ray.direction, found ? hit.material : no_surface,
@@ -20,6 +20,7 @@ void main() {
     if (found && first_bounce == 1) path.first_hit = hit.distance;
     path.radiance += traced ? path.throughput * (found ? m.emission : sky(ray.direction)) : vec3(0.0);
     path.throughput *= found ? m.albedo : vec3(0.0);
+    if (path.throughput == vec3(0.0)) vertex.material = no_surface;  // as of a lamp: nothing more will count
     path.pending = vec3(0.0);
     if (light_count > 0) {
         vec3 irradiance;

@@ -1,6 +1,6 @@
 // What the last shadow rays of a bounce have brought, and the rays from the vertices where paths go on. In the end Russian
 // roulette (Arvo and Kirk, "Particle Transport and Image Synthesis", 1990): a path goes on with the probability of its
-// largest throughput, and then counts as much more, so the mean stays.
+// largest throughput, and then counts as much more, so the mean stays. `guided`, a constant: see guided_ray.
 layout(local_size_x = 64) in;
 
 uniform uint pixel_count;
@@ -21,6 +21,12 @@ void main() {
     float survival = roulette == 1 ? min(max(path.throughput.r, max(path.throughput.g, path.throughput.b)), 1.0) : 1.0;
     bool goes_on = s.material != no_surface && (survival == 1.0 || independent_sample(pixel, index, roulette_stream).x < survival);
     paths[i].radiance = settled(path, load_hit(i));
-    paths[i].throughput = path.throughput / max(survival, 1e-20);
-    rays[i] = hemisphere_ray(s, independent_sample(pixel, index, stream), goes_on ? far_reach : 0.0);
+    float weight = 1.0, reach = goes_on ? far_reach : 0.0;
+    vec2 u = independent_sample(pixel, index, stream);
+#if guided
+    rays[i] = guided_ray(s, u, reach, weight);
+#else
+    rays[i] = hemisphere_ray(s, u, reach);
+#endif
+    paths[i].throughput = path.throughput * weight / max(survival, 1e-20);
 }

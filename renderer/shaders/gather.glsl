@@ -23,7 +23,7 @@ void main() {
         vec3 radiance = settled(path, load_hit(path_index));
         float weight = near_weight(path.first_hit, near_radius);
         whole += vec4(radiance, 1.0);
-        far += (1.0 - weight) * vec4(radiance, 1.0);
+        far += (1.0 - weight) * vec4(radiance, path.weight);
         near += vec4(weight * radiance, 1.0);
         squares += dot(radiance, radiance) / 3.0;
         indirect += vec4(albedo * radiance, 1.0);

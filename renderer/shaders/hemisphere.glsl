@@ -1,5 +1,5 @@
 // Cosine-distributed rays from the surfaces of a run of pixels, `sample_count` from each, which lie apart by `pixel_count`:
-// where paths of far light begin, or short rays of ambient occlusion.
+// where paths of far light begin, or short rays of ambient occlusion. `guided`, a constant: see guided_ray.
 layout(local_size_x = 64) in;
 
 uniform uint pixel_count;
@@ -19,5 +19,13 @@ void main() {
     Surface s = load_surface(spread > 0u ? even : pixel);
     uint index = sample_index + gl_WorkGroupID.y;
     vec2 u = stratified == 1 ? sequence_sample(place_of(pixel), index, stream) : independent_sample(pixel, index, stream);
-    rays[gl_WorkGroupID.y * pixel_count + i] = hemisphere_ray(s, u, s.material != no_surface ? reach : 0.0);
+    uint place = gl_WorkGroupID.y * pixel_count + i;
+    float ray_reach = s.material != no_surface ? reach : 0.0;
+#if guided
+    float weight;
+    rays[place] = guided_ray(s, u, ray_reach, weight);
+    paths[place].weight = weight;
+#else
+    rays[place] = hemisphere_ray(s, u, ray_reach);
+#endif
 }
