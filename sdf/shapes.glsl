@@ -444,13 +444,22 @@ float menger_sponge(vec3 p, float half_size, float iterations) {
     return d;
 }
 
-// Complex numbers: z multiplied by itself.
+vec2 complex_product(vec2 a, vec2 b) {
+    return vec2(a.x * b.x - a.y * b.y, a.x * b.y + a.y * b.x);
+}
+
+// z to a power from 1 to 31. Without a loop, so that a constant power costs the products that it takes and no more.
 vec2 complex_power(vec2 z, float power) {
+    int n = int(power);
+    vec2 z2 = complex_product(z, z);
+    vec2 z4 = complex_product(z2, z2);
+    vec2 z8 = complex_product(z4, z4);
     vec2 result = vec2(1.0f, 0.0f);
-    for (int n = int(power); n > 0; n = n / 2) {
-        if (n % 2 == 1) result = vec2(result.x * z.x - result.y * z.y, result.x * z.y + result.y * z.x);
-        z = vec2(z.x * z.x - z.y * z.y, 2.0f * z.x * z.y);
-    }
+    if (n % 2 == 1) result = z;
+    if (n / 2 % 2 == 1) result = complex_product(result, z2);
+    if (n / 4 % 2 == 1) result = complex_product(result, z4);
+    if (n / 8 % 2 == 1) result = complex_product(result, z8);
+    if (n / 16 % 2 == 1) result = complex_product(result, complex_product(z8, z8));
     return result;
 }
 
