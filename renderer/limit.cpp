@@ -36,15 +36,17 @@ double multiply_adds_per_second(Stopwatch& watch) {
     return 32.0 * turns * invocations / shortest;
 }
 
-/// Evaluations that lanes have time for when rays with so many steps are shared out as in trace.glsl.
-std::uint64_t lane_slots(const std::vector<std::uint32_t>& steps, std::size_t lanes, std::size_t rays_each, int pause) {
+/// Evaluations that lanes have time for when rays with so many steps are shared out as in march.glsl.
+std::uint64_t lane_slots(const std::vector<std::uint32_t>& steps, std::size_t lanes, std::size_t rays_each,
+                         std::size_t claiming_evaluations, int pause) {
     std::uint64_t slots = 0;
     std::vector<std::uint32_t> left(lanes, 0);
     for (std::size_t next = 0; next < steps.size();) {
         const std::size_t end = std::min(next + lanes * rays_each, steps.size());
-        for (std::uint32_t longest = 1; longest > 0;) {
+        std::size_t evaluations = 0;
+        for (std::uint32_t longest = 1; longest > 0; evaluations += longest) {
             for (std::uint32_t& l : left)
-                while (l == 0 && next < end) l = steps[next++];
+                while (l == 0 && next < (evaluations < claiming_evaluations ? steps.size() : end)) l = steps[next++];
             longest = std::min(*std::max_element(left.begin(), left.end()), static_cast<std::uint32_t>(pause));
             for (std::uint32_t& l : left) l -= std::min(l, longest);
             slots += longest * lanes;
@@ -87,8 +89,9 @@ public:
             const std::vector<std::uint32_t> after = steps(work);
             std::vector<std::uint32_t> own(work.rays());
             for (std::size_t i = 0; i < work.rays(); ++i) evaluations += own[i] = after[i] - before[i];
-            found->lane_evaluations += lane_slots(own, static_cast<std::size_t>(limit_.lanes),
-                                                  tracer.rays_each(part, work.rays()), tracer.pause());
+            found->lane_evaluations +=
+                lane_slots(own, static_cast<std::size_t>(limit_.lanes), tracer.rays_each(part, work.rays()),
+                           tracer.claiming_evaluations(part), tracer.pause());
             before = after;
         }
         for (std::size_t part = 0; part < tracer.parts(); ++part)

@@ -77,10 +77,11 @@ inline constexpr std::size_t ray_bytes = 32, hit_bytes = 16, surface_bytes = 32,
 /// buffers as textures, see shaders/common.glsl.
 namespace binding {
 inline constexpr unsigned first_texels = 8;
-inline constexpr unsigned rays = 0, hits = 1, surfaces = 2, paths = 3, materials = 4, lights = 5, direct = 6,
-                          geometry = 7, reflectance = 8, far_light = 9, indirect = 10, occlusion = 11, counters = 12,
-                          split_far = 13, split_near = 14, squares = 15, boxes = 16, members = 17,
-                          emitters = 18;              // the last three as texels alone
+inline constexpr unsigned rays = 0, hits = 1, surfaces = 2, paths = 3, queue = 4, direct = 6, geometry = 7,
+                          reflectance = 8, far_light = 9, indirect = 10, occlusion = 11, counters = 12, split_far = 13,
+                          split_near = 14, squares = 15;
+/// As texels alone.
+inline constexpr unsigned boxes = 16, members = 17, emitters = 18, materials = 19, lights = 20;
 inline constexpr unsigned frame = 0, parameters = 1;  // of uniform buffers
 }  // namespace binding
 

@@ -227,9 +227,9 @@ bool Renderer::step() {
     frame_.bind_uniform(binding::frame);
     targets_->bind();
     batch_.bind();
-    bind_records(materials_, binding::materials);
-    bind_records(lights_, binding::lights);
-    emitters_.bind_texels(binding::first_texels + binding::emitters, GL_RGBA32UI);
+    for (const auto& [buffer, at] : {std::pair(&materials_, binding::materials), std::pair(&lights_, binding::lights),
+                                     std::pair(&emitters_, binding::emitters)})
+        buffer->bind_texels(binding::first_texels + at, GL_RGBA32UI);
     counters_.bind_storage(binding::counters);
     const Work w = next_work();
     if (sample_ < 0) {

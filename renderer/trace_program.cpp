@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <regex>
 #include <utility>
@@ -46,10 +45,16 @@ constexpr std::string_view not_sharing = "#define shares_rays 0\n";
 /// A dispatch keeps all cores busy with so many groups.
 constexpr std::size_t enough_invocations = 1024;
 
-/// Of llvmpipe's 65,535 turns (see has_loops) for the walks of an invocation's rays through a family: lanes wait for
-/// each other, and some rays walk longer than BoxTree::longest_walk. With 1 to 60 rays each times differ by less than
-/// 10 %.
+/// Of loops in an invocation: llvmpipe ends them after 65,535, see march.glsl.
+constexpr std::uint64_t most_turns = 60000;
+/// Of the tracer's own loops for each march as far as the pause.
+constexpr std::uint64_t turns_of_march = 6;
+/// Of these for the walks of an invocation's rays through a family: lanes wait for each other, and some rays walk
+/// longer than BoxTree::longest_walk. With 1 to 60 rays each times differ by less than 10 %.
 constexpr std::uint64_t safe_turns = 4096;
+
+/// Evaluations of a ray. Flat fields (GeneratedScene::flat) need more, see march.glsl.
+std::uint64_t march_limit(const GeneratedScene& generated) { return generated.flat ? 512 : 256; }
 
 /// The driver's log with the name of the node whose line it complains about. Logs name lines as 2:17(8) or 2(17).
 std::string explain(const Scene& scene, const GeneratedScene& generated, const std::string& log) {
@@ -76,18 +81,6 @@ void remove(Node& node, const std::vector<Id>& ids) {
     for (Node& child : node.children) remove(child, ids);
 }
 
-/// llvmpipe ends all loops of an invocation once they have come to 65,535 turns together, and with them the rays that
-/// are left. The tracer's own come to 9,000 at most for 16 rays; a ray that evaluates loops 512 times needs an
-/// invocation for itself.
-bool has_loops(std::string_view code) {
-    for (auto at = code.find("for"); at != std::string_view::npos; at = code.find("for", at + 1)) {
-        const auto is_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
-        const auto next = code.find_first_not_of(" \t\n", at + 3);
-        if ((at == 0 || !is_name(code[at - 1])) && next != std::string_view::npos && code[next] == '(') return true;
-    }
-    return false;
-}
-
 /// The numbers of a family's member as its code reads them; no scene else has any.
 std::string members_source(std::size_t vectors) {
     std::string variables, loads;
@@ -101,16 +94,12 @@ std::string members_source(std::size_t vectors) {
     return fmt::format("{}void load_member(uint member) {{\n{}}}\n", variables, loads);
 }
 
-/// Of what the march calls; the function for materials is none of that.
-bool marches_in_loops(const GeneratedScene& generated) {
-    const std::string_view text = generated.text;
-    return has_loops(text.substr(0, generated.surface_at)) || has_loops(text.substr(generated.march_at));
-}
-
 }  // namespace
 
 std::string scene_kernel_source(const std::string& file, const GeneratedScene& generated, bool shares_rays) {
-    const std::string kernel = shader_source(file, shares_rays ? sharing : not_sharing);
+    std::string constants(shares_rays ? sharing : not_sharing);
+    constants += fmt::format("#define claims_rays {}\n", shares_rays && generated.loop_turns > 0 ? 1 : 0);
+    const std::string kernel = shader_source(file, constants);
     // The scene goes between the common part and the kernel's own, which starts at the second #line directive.
     const std::size_t own = kernel.rfind("#line 1 0\n");
     const bool marches = file.starts_with("trace");
@@ -129,6 +118,10 @@ std::string scene_kernel_source(const std::string& file, const GeneratedScene& g
         text += "float parameter(int i) { return parameter_block[i >> 2][i & 3]; }\n";
     }
     text += fmt::format("void load_parameters() {{\n{}}}\nconst bool flat_field = {};\n", load, generated.flat);
+    if (marches)
+        text +=
+            fmt::format("const int usual_limit = {};\nconst uint most_turns = {}u;\nconst uint turns_of_march = {}u;\n",
+                        march_limit(generated), most_turns, turns_of_march);
     text += members_source(generated.member_vectors);
     // Drivers spend a good part of their time on functions that nothing calls.
     const std::string_view all = generated.text;
@@ -148,6 +141,7 @@ std::string scene_kernel_source(const std::string& file, const GeneratedScene& g
 // On a GPU rays are many and lanes need work at once. On llvmpipe 32 to 128 rays and pauses of 3 to 6 evaluations
 // differ by less than 5 %, and 16 rays lose 6 % in the colonnade.
 TracePrograms::TracePrograms() {
+    queue_.resize(sizeof(std::uint32_t));
     if (renders_on_cpu() && has_extension("GL_ARB_shader_ballot")) schedule_ = {64, 4, true};
 }
 
@@ -202,7 +196,7 @@ TracePrograms::Codes TracePrograms::take_families(Scene& scene, Id tuned) const 
     std::vector<Id> taken;
     for (Family& family : families_.find(scene, tuned)) {
         BoxTree boxes = make_box_tree(family.bounds);
-        if (schedule_.shares_rays && (boxes.longest_walk > safe_turns || marches_in_loops(family.code))) continue;
+        if (schedule_.shares_rays && (boxes.longest_walk > safe_turns || family.code.loop_turns > 0)) continue;
         taken.insert(taken.end(), family.members.begin(), family.members.end());
         families.push_back(std::make_shared<const Code>(
             Code{Scene(), Tier::specialised, 0, false, std::move(family.code),
@@ -281,7 +275,7 @@ void TracePrograms::compile_march(const Code& code, const Scene& scene) {
                                       generated.parameters.size(), largest_block));
     gl::Program march =
         compiled(code, scene, "the scene's trace kernel", code.members ? "trace_family.glsl" : "trace.glsl");
-    begun_ = Entry{generated.key, marches_in_loops(generated) ? 1 : schedule_.rays_each, std::move(march), {}};
+    begun_ = Entry{generated.key, std::move(march), {}};
 }
 
 /// Of the part that has been begun.
@@ -330,11 +324,31 @@ void TracePrograms::run(const gl::Program& kernel, std::size_t part, std::size_t
     kernel.run(count);
 }
 
-std::size_t TracePrograms::rays_each(std::size_t part, std::size_t count) const {
-    std::size_t most = current_[part].programs->rays_each;
-    if (const auto& members = current_[part].code->members)
+bool TracePrograms::claims_rays(const Part& part) const {
+    return schedule_.shares_rays && part.code->generated.loop_turns > 0;
+}
+
+TracePrograms::Turns TracePrograms::turns(const Part& part) const {
+    const GeneratedScene& generated = part.code->generated;
+    const std::uint64_t each = 1 + std::min(generated.loop_turns, most_turns);
+    const auto pause = static_cast<std::uint64_t>(schedule_.pause);
+    const std::uint64_t march = pause * each + turns_of_march;
+    return {each, march, std::min((march_limit(generated) / pause + 1) * march, most_turns)};
+}
+
+std::size_t TracePrograms::rays_each(std::size_t number, std::size_t count) const {
+    const Part& part = current_[number];
+    std::size_t most = claims_rays(part) ? 1 : schedule_.rays_each;
+    if (const auto& members = part.code->members)
         most = std::min<std::size_t>(most, std::max<std::uint64_t>(safe_turns / members->boxes.longest_walk, 1));
     return std::clamp<std::size_t>(count / enough_invocations, 1, most);
+}
+
+std::size_t TracePrograms::claiming_evaluations(std::size_t number) const {
+    const Part& part = current_[number];
+    if (!claims_rays(part)) return 0;
+    const Turns of = turns(part);
+    return (most_turns - of.ray) / of.march * static_cast<std::size_t>(schedule_.pause);
 }
 
 void TracePrograms::march(std::size_t number, std::size_t count, bool any_hit) const {
@@ -343,7 +357,14 @@ void TracePrograms::march(std::size_t number, std::size_t count, bool any_hit) c
     const std::size_t each = rays_each(number, count);
     bind(part);
     march.set("ray_count", static_cast<unsigned>(count));
-    if (schedule_.shares_rays) march.set("rays_each", static_cast<unsigned>(each));
+    if (claims_rays(part)) {
+        queue_.clear();
+        queue_.bind_storage(binding::queue);
+        march.set("turns_each", static_cast<unsigned>(turns(part).evaluation));
+        march.set("turns_of_ray", static_cast<unsigned>(turns(part).ray));
+    } else if (schedule_.shares_rays) {
+        march.set("rays_each", static_cast<unsigned>(each));
+    }
     march.set("pause", schedule_.pause);
     march.set("part", part.first);
     march.set("any_hit", any_hit ? 1 : 0);

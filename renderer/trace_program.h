@@ -37,7 +37,10 @@ public:
 
     // For measurements: the march alone, of one of the parts, and kernels of their own with the scene in front.
     std::size_t parts() const { return current_.size(); }
-    std::size_t rays_each(std::size_t part, std::size_t count) const;  ///< in a dispatch of `count` rays
+    /// How lanes share the rays of a dispatch of `count`, see march.glsl: how many each has, and how many evaluations
+    /// an invocation makes before it claims no more.
+    std::size_t rays_each(std::size_t part, std::size_t count) const;
+    std::size_t claiming_evaluations(std::size_t part) const;
     int pause() const { return schedule_.pause; }
     void march(std::size_t part, std::size_t count, bool any_hit) const;
     void count(std::size_t rays) const;                             ///< what they took, into the bound counters
@@ -51,7 +54,6 @@ public:
 private:
     struct Entry {
         std::string key;
-        std::size_t rays_each;
         gl::Program march, surface;
     };
     using Cache = std::list<std::shared_ptr<const Entry>>;
@@ -99,6 +101,12 @@ private:
     void compile_surface(const Code& code, const Scene& scene);
     gl::Program compiled(const Code& code, const Scene& scene, const char* name, const char* file);
     static void bind(const Part& part);
+    bool claims_rays(const Part& part) const;
+    /// Of loops, at most.
+    struct Turns {
+        std::uint64_t evaluation, march, ray;  ///< march: as far as the pause
+    };
+    Turns turns(const Part& part) const;
 
     /// See trace.glsl.
     struct Schedule {
@@ -107,6 +115,7 @@ private:
         bool shares_rays = false;
     };
     Schedule schedule_;
+    mutable gl::Buffer queue_{"queue"};  ///< claimed rays, see march.glsl
     gl::Program count_ = load_program("count.glsl");
 
     mutable std::list<Division> divisions_;  ///< of the last calls

@@ -30,6 +30,27 @@ bool is_flat(const FieldNode& n) {
            std::any_of(n.children.begin(), n.children.end(), is_flat);
 }
 
+/// Of the node's loops in one evaluation, `definitions` those of the tree's. A loop takes two turns more than those
+/// that do something, because it ends with one and drivers may add one.
+double loop_turns(const FieldNode& n, const std::vector<double>& definitions, bool live) {
+    double turns = n.kind->role == Role::instance ? definitions[n.definition] : 0.0;
+    for (const FieldNode& child : n.children) turns += loop_turns(child, definitions, live);
+    if (n.kind->role == Role::repeat) {
+        const double cells = n.kind->cells(n.values);
+        turns = turns * cells + (live || !writes_out_cells(n) ? cells + 2.0 : 0.0);
+    }
+    if (n.kind->turns) turns += n.kind->turns(n.values) + 2.0;
+    return n.code ? turns + n.code->loop_turns() : turns;
+}
+
+/// Twice that, because the distance may be asked for beside how far the ray may go.
+std::uint64_t loop_turns(const FieldTree& tree, bool live) {
+    std::vector<double> definitions;
+    for (const FieldNode& definition : tree.definitions)
+        definitions.push_back(loop_turns(definition, definitions, live));
+    return tree.root ? static_cast<std::uint64_t>(std::min(2.0 * loop_turns(*tree.root, definitions, live), 1e9)) : 0;
+}
+
 constexpr const char* direction_helper =
     "\n"
     "// The same for a direction, which stays a unit vector.\n"
@@ -97,6 +118,7 @@ GeneratedScene generate(const FieldTree& tree, Tier tier, Id tuned, bool by_dist
     generated.key = std::move(all.key);
     generated.parameters = std::move(block.values);
     generated.line_nodes = std::move(all.nodes);
+    generated.loop_turns = loop_turns(tree, !generated.parameters.empty());
     generated.bounds = tree.bounds();
     generated.flat =
         (tree.root && is_flat(*tree.root)) || std::any_of(tree.definitions.begin(), tree.definitions.end(), is_flat);

@@ -39,6 +39,8 @@ struct GeneratedScene {
     std::vector<Id> line_nodes;
     /// Whether the field can be much flatter than the distance: bounds of stretched space, some primitives.
     bool flat = false;
+    /// Turns of loops in an evaluation by scene_march, at most; 0: it has none.
+    std::uint64_t loop_turns = 0;
     /// Of a family (sdf/families.h): so many vec4 of numbers each of its members has. The program needs them as
     /// `member0`, `member1`, ...; 0 for a scene that is no family.
     std::size_t member_vectors = 0;

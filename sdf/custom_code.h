@@ -44,6 +44,11 @@ public:
     /// They refer to texts that live as long as this object.
     std::span<const Parameter> parameters() const { return parameters_; }
     float lipschitz() const { return lipschitz_; }  ///< as declared, or 1
+    /// Of its loops in one evaluation, at most, each loop's last turn included; 0: it has none.
+    double loop_turns() const {
+        const auto repetitions = static_cast<double>(program_.repetitions);
+        return repetitions > 0.0 ? 2.0 * repetitions + 16.0 : 0.0;
+    }
 
     /// GLSL that declares `float sdf_<suffix>(vec3 p)`. Line i belongs to line i of the text. All global names end in
     /// the suffix, of letters and digits. `arguments`: for each parameter a float or vec3 expression in code units;

@@ -437,6 +437,7 @@ void add_modifiers(std::vector<KindInfo>& t) {
     noise.image = without_symmetry;
     noise.reach = [](Values v) { return 2.0f * v[0].x; };
     noise.stretch = [](Values v) { return 1.0f + 3.75f * v[2].x * v[0].x / v[1].x; };
+    noise.turns = [](Values v) { return v[2].x; };
     noise.explain = [](Values v) {
         return fmt::format("noise: 1 + 3.75 times {:.0f} {} of the amplitude {:.3g} / the size {:.3g}", v[2].x,
                            v[2].x == 1.0f ? "octave" : "octaves", v[0].x, v[1].x);

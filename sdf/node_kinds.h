@@ -182,6 +182,7 @@ struct KindInfo {
     /// How much steps are shortened at most, to be safe: the Lipschitz constant of the field before `secondary` divides
     /// by it, where the content is; null: 1.
     float (*stretch)(Values v);
+    float (*turns)(Values v);  ///< of the loops in its functions, for one evaluation at most; null: there are none
     /// Whether that grows away from the content, so that the content is evaluated at the point of its bounds nearest to
     /// p: with c that point, sqrt(|p - c|² + d(c)²) is 1-Lipschitz where d is, because a projection on a convex set is
     /// firmly nonexpansive.

@@ -286,6 +286,7 @@ void add_primitives(std::vector<KindInfo>& t) {
           6.0f,
           {3.0f, 0.0f, 0.0f}}},
         [](Values v) { return within(glm::vec3(v[0].x)); }, FUNCTION(primitive, menger_sponge)));
+    t.back().turns = [](Values v) { return v[1].x; };
     t.push_back(make_primitive(
         K::mandelbulb, "mandelbulb", "Mandelbulb",
         "What stays bounded when points are raised to a power again and again", false,
@@ -302,6 +303,7 @@ void add_primitives(std::vector<KindInfo>& t) {
             return within(glm::vec3(v[0].x), {true, !is_even(v[1].x), !is_even(v[1].x)});
         },
         FUNCTION(primitive, mandelbulb)));
+    t.back().turns = [](Values v) { return v[2].x; };
     t.push_back(make_primitive(
         K::custom, "custom", "Custom code", "A distance function of your own, in GLSL; its uniforms become sliders",
         false, {lengths("bounds", "Half size of the box that holds it; 0 has no end along that axis", 1.0f)},

@@ -1,5 +1,6 @@
 #include "sdf/codegen.h"
 
+#include "sdf/custom_code.h"
 #include "sdf/edit.h"
 #include "sdf/scene_file.h"
 #include "tests/test_support.h"
@@ -106,6 +107,43 @@ TEST(Codegen, StructuralEditsChangeTheLiveKey) {
         apply(edited, edit);
         EXPECT_NE(generate(edited, Tier::live).key, key);
     }
+}
+
+/// Whether rays can share an invocation depends on it.
+TEST(Codegen, CountsTheTurnsOfAllLoops) {
+    for (const KindInfo& kind : node_kinds()) {
+        if (kind.role == Role::instance) continue;
+        Node node = make_node(kind.kind);
+        if (kind.role != Role::primitive) node.children = {make_node(NodeKind::sphere), make_node(NodeKind::box)};
+        Scene scene;
+        const Id id = apply(scene, InsertNode{scene.root.id, -1, node});
+        for (const Parameter& parameter : kind.parameters)
+            if (kind.role == Role::repeat && parameter.type == ParameterType::integer)
+                apply(scene, SetValue{{ObjectType::node, id}, parameter.key, glm::vec3(9.0f)});
+        for (const Tier tier : {Tier::live, Tier::specialised}) {
+            const GeneratedScene generated = generate(scene, tier);
+            const std::string march =
+                generated.text.substr(0, generated.surface_at) + generated.text.substr(generated.march_at);
+            EXPECT_EQ(march.find("for (") != std::string::npos, generated.loop_turns > 0) << kind.key;
+        }
+    }
+    Scene scene;
+    Node bulb = make_node(NodeKind::mandelbulb);
+    bulb.values[2].x = 10.0f;
+    apply(scene, InsertNode{scene.root.id, -1, bulb});
+    EXPECT_EQ(generate(scene, Tier::specialised).loop_turns, 2u * (10u + 2u));
+    Node custom = make_node(NodeKind::custom);
+    custom.code = CustomCode::parse(
+                      "float sdf(vec3 p) {\n"
+                      "    float d = 1.0;\n"
+                      "    for (int i = 0; i < 8; ++i) d = min(d, length(p) - float(i));\n"
+                      "    return d;\n"
+                      "}\n")
+                      .code;
+    ASSERT_TRUE(custom.code);
+    custom.values.resize(1);  // it has no uniforms
+    apply(scene, InsertNode{scene.root.id, -1, custom});
+    EXPECT_GE(generate(scene, Tier::specialised).loop_turns, 2u * (10u + 2u + 8u + 1u));
 }
 
 TEST(Codegen, EveryLineOfANodeNamesIt) {

@@ -97,8 +97,8 @@ layout(binding = 8) uniform usamplerBuffer ray_texels;
 layout(binding = 9) uniform usamplerBuffer hit_texels;
 layout(binding = 10) uniform usamplerBuffer surface_texels;
 layout(binding = 11) uniform usamplerBuffer path_texels;
-layout(binding = 12) uniform usamplerBuffer material_texels;
-layout(binding = 13) uniform usamplerBuffer light_texels;
+layout(binding = 27) uniform usamplerBuffer material_texels;
+layout(binding = 28) uniform usamplerBuffer light_texels;
 layout(binding = 26) uniform usamplerBuffer emitter_texels;
 
 // ---- accumulators: sums over frames, one element for each pixel, row 0 at the top ----

@@ -8,12 +8,18 @@
 // Where lanes run in step, as in llvmpipe's eight, all wait for the longest of their rays: shadow rays of the Cornell room
 // took 84 evaluations' time for 25. So they have several rays each (`rays_each`), and those whose ray has ended take the next
 // of all these after every `pause` evaluations (after Aila and Laine, "Understanding the Efficiency of Ray Traversal on
-// GPUs", 2009). One call site: Mesa inlines every call, and each further copy of the scene costs compile time, not speed. Loops
+// GPUs", 2009). llvmpipe ends all loops of an invocation after 65,535 turns, and with them the rays that are left. Where evaluations
+// take loops, lanes therefore claim rays one by one (`claims_rays`), as long as the turns that are left suffice for each of them. Elsewhere
+// that would cost 5 %, and 25 % in a family. One call site: Mesa inlines every call, and each further copy of the scene costs compile time, not speed. Loops
 // end with their conditions: llvmpipe runs a loop that begins with its condition once more, with nothing to do.
 layout(local_size_x = 64) in;
 
 uniform uint ray_count;
-#if shares_rays
+#if claims_rays
+layout(std430, binding = 4) buffer Queue { uint claimed_rays; };  // by all invocations
+uniform uint turns_each;      // of loops for one evaluation, at most
+uniform uint turns_of_ray;    // for one ray, at most
+#elif shares_rays
 uniform uint rays_each;
 #endif
 uniform int pause;
@@ -25,12 +31,14 @@ uniform int any_hit;         // 1: a ray that met an earlier part looks for noth
 // out elsewhere; it needs more steps, too. Where a ray has left such a surface its field stays below the tolerance for long:
 // what grows along the ray is no hit (a sphere twisted by 10,000 degrees per metre was black).
 const float least_slope = flat_field ? 0.1 : 1.0;
-const int usual_limit = flat_field ? 512 : 256;
 const float beta = 0.5;
 const float near_enough = 2e-3;  // radians: one to three pixels of a camera ray
 
 // Of the rays that its lanes share, the next one and the end.
 uint next_ray, end;
+#if claims_rays
+uint turns = 0u;  // of loops so far, at most
+#endif
 
 // The ray of the lane.
 uint i;
@@ -49,7 +57,10 @@ bool found;
 bool marching = false;
 
 void share_out_rays() {
-#if shares_rays
+#if claims_rays
+    next_ray = 0u;
+    end = ray_count;
+#elif shares_rays
     // Lanes that run in step take the next of their common rays.
     next_ray = (gl_GlobalInvocationID.x - gl_SubGroupInvocationARB) * rays_each;
     end = min(ray_count, next_ray + gl_SubGroupSizeARB * rays_each);
@@ -70,12 +81,25 @@ bool some(bool here) {
 
 // The number of the next ray for each lane without one. True if it is one: then it is there.
 bool take_ray(bool without) {
-    i = without ? next_ray : i;
+#if claims_rays
+    turns += 2u;
+    if (turns > 2u && turns + turns_of_ray > most_turns) next_ray = end;
+    without = without && next_ray < end;
+#endif
 #if shares_rays
     uint all = unpackUint2x32(ballotARB(without)).x;
-    if (without) i += uint(bitCount(all & ((1u << gl_SubGroupInvocationARB) - 1u)));
+    uint before = uint(bitCount(all & ((1u << gl_SubGroupInvocationARB) - 1u)));
+#if claims_rays
+    if (all != 0u) {
+        uint first = 0u;
+        if (without && before == 0u) first = atomicAdd(claimed_rays, uint(bitCount(all)));
+        next_ray = readInvocationARB(first, uint(findLSB(all)));
+    }
+#endif
+    i = without ? next_ray + before : i;
     next_ray += uint(bitCount(all));
 #else
+    i = without ? next_ray : i;
     ++next_ray;
 #endif
     bool taken = without && i < end;
@@ -144,6 +168,9 @@ void march() {
         }
         --left;
     } while (marching && left > 0);
+#if claims_rays
+    turns += uint(pause) * turns_each + turns_of_march;
+#endif
 }
 
 // Of a ray that marches no more: whether it has run out of steps. One that grazes a surface has met it, any other has met
