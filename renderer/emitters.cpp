@@ -36,14 +36,14 @@ float other_radiance(const Scene& scene, const FieldTree& geometry) {
     return sum;
 }
 
+/// In one of the parts that a hard union unites, which has definitions of its own.
 class Finder {
 public:
-    Finder(const Scene& scene, const std::vector<FieldNode>& definitions) : scene_(scene), definitions_(definitions) {
-        for (const FieldNode& definition : definitions) of_definitions_.push_back(shown_by(definition));
+    Finder(const Scene& scene, const FieldTree& part) : scene_(scene), part_(part) {
+        for (const FieldNode& definition : part.definitions) of_definitions_.push_back(shown_by(definition));
     }
 
-    /// The emitters of one of the tree's united parts.
-    void add(const FieldTree& part, std::vector<EmitterRecord>& to) { add(part, *part.root, to); }
+    void add_to(std::vector<EmitterRecord>& found) const { add_to(found, *part_.root); }
 
 private:
     /// What a node shows: the most that its own materials emit, and whether it takes another from its instances.
@@ -71,20 +71,20 @@ private:
         return all;
     }
 
-    void add(const FieldTree& part, const FieldNode& node, std::vector<EmitterRecord>& to) {
-        for (const FieldNode& child : node.children) add(part, child, to);
+    void add_to(std::vector<EmitterRecord>& found, const FieldNode& node) const {
+        for (const FieldNode& child : node.children) add_to(found, child);
         if (!node.children.empty()) return;
         const float radiance = shown_by(node).radiance;
         if (!(radiance > 0.0f)) return;
-        const std::optional<Box> box = world_bounds(part, node.id);
+        const std::optional<Box> box = world_bounds(part_, node.id);
         if (!box) return;
-        const Box shown = box->common(part.bounds());
+        const Box shown = box->common(part_.bounds());
         const glm::vec3 side = shown.size();
-        if (std::max({side.x, side.y, side.z}) < largest) to.push_back({shown.low, radiance, shown.high, 0.0f});
+        if (std::max({side.x, side.y, side.z}) < largest) found.push_back({shown.low, radiance, shown.high, 0.0f});
     }
 
     const Scene& scene_;
-    const std::vector<FieldNode>& definitions_;
+    const FieldTree& part_;
     std::vector<Shown> of_definitions_;
 };
 
@@ -100,8 +100,7 @@ std::vector<EmitterRecord> find_emitters(const Scene& scene, const FieldTree& ge
     const bool any = std::any_of(scene.materials.begin(), scene.materials.end(),
                                  [](const Material& m) { return luminance(m.emission) > 0.0f; });
     if (!any || !geometry.root) return found;
-    Finder finder(scene, geometry.definitions);
-    for (const FieldTree& part : united(geometry)) finder.add(part, found);
+    for (const FieldTree& part : united(geometry)) Finder(scene, part).add_to(found);
     const std::size_t kept = std::min(found.size(), most_emitters);
     std::partial_sort(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(kept), found.end(),
                       [](const EmitterRecord& a, const EmitterRecord& b) { return flux(a) > flux(b); });

@@ -63,9 +63,15 @@ TEST_F(Emitters, OperationsAboveMoveThemCopyThemAndCutThem) {
 }
 
 TEST_F(Emitters, StandWhereInstancesOfThemStand) {
+    // Another one, which has a material of its own.
+    const Id other = add(NodeKind::union_, {}, 0, false);
+    Node dark = make_node(NodeKind::box);
+    dark.material = scene_.materials[0].id;
+    apply(scene_, InsertNode{other, -1, dark});
+    apply(scene_, MakeDefinition{other});
     const Id lamp = add(NodeKind::sphere);
     apply(scene_, MakeDefinition{lamp});
-    Node instance = make_instance(scene_.definitions[0]);
+    Node instance = make_instance(scene_.definitions[1]);
     instance.transform.translate = {0.0f, 5.0f, 0.0f};
     apply(scene_, InsertNode{scene_.root.id, -1, instance});
     EXPECT_EQ(found().size(), 1u);  // the material is the first instance's
