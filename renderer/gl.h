@@ -140,6 +140,10 @@ public:
     void set(const char* name, float v) const { glProgramUniform1f(handle_.name(), location(name), v); }
     void set(const char* name, glm::ivec2 v) const { glProgramUniform2i(handle_.name(), location(name), v.x, v.y); }
     void set(const char* name, glm::vec3 v) const { glProgramUniform3f(handle_.name(), location(name), v.x, v.y, v.z); }
+    /// The first elements of an array.
+    void set(const char* name, std::span<const glm::uvec2> v) const {
+        glProgramUniform2uiv(handle_.name(), location(name), static_cast<GLsizei>(v.size()), &v.front().x);
+    }
     /// Runs at least `count` invocations in groups of 64x1, and as many for each layer, and makes their writes visible
     /// to what follows.
     void run(std::size_t count, std::size_t layers = 1) const;

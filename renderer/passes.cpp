@@ -1,8 +1,10 @@
 #include "renderer/passes.h"
 
 #include "renderer/records.h"
+#include "renderer/sobol.h"
 
 #include <algorithm>
+#include <array>
 
 namespace farfield {
 namespace {
@@ -35,6 +37,16 @@ void run_on_pixels(const gl::Program& program, const Work& work, bool sampled) {
     program.run(work.pixels, sampled ? work.samples : 1);
 }
 
+// Streams of random numbers, apart from the bounces' own 0..8; from roulette_stream on one for each bounce.
+constexpr unsigned occlusion_stream = 100, measure_stream = 200, roulette_stream = 300;
+
+/// Points of the work's samples, of which `first` is the first, for the rays of a bounce.
+void set_points(const gl::Program& program, const Work& work, unsigned first, int bounce) {
+    std::array<glm::uvec2, most_samples_together> points;
+    for (unsigned i = 0; i < work.samples; ++i) points[i] = sobol(first + i, sobol_pair::of_bounce(bounce));
+    program.set("points", std::span(points).first(work.samples));
+}
+
 /// Rays over the hemispheres of the camera's surfaces.
 struct HemisphereRays {
     unsigned sample_index;
@@ -44,7 +56,7 @@ struct HemisphereRays {
     std::size_t spread = 0;
 
     void run(const gl::Program& program, const Work& work) const {
-        program.set("sample_index", sample_index);
+        set_points(program, work, sample_index, 0);
         program.set("stream", stream);
         program.set("stratified", stratified ? 1 : 0);
         program.set("reach", reach);
@@ -53,8 +65,6 @@ struct HemisphereRays {
     }
 };
 
-// Streams of random numbers, apart from the bounces' own 0..8; from roulette_stream on one for each bounce.
-constexpr unsigned occlusion_stream = 100, measure_stream = 200, roulette_stream = 300;
 constexpr int roulette_after = 4;  // bounces: most of the light has been found, and what is left is dim
 /// Of paths: farther than anything, see far_reach in common.glsl.
 constexpr float no_limit = 1e4f;
@@ -142,7 +152,7 @@ const FarLightPass::Leaving& FarLightPass::leaving(const Work& work) const {
 void FarLightPass::run(const Work& work, unsigned sample_index, int bounces, float near_radius) const {
     HemisphereRays{sample_index, 0, true, no_limit}.run(leaving(work).hemisphere, work);
     for (int bounce = 0; bounce < bounces; ++bounce) {
-        if (bounce > 0) go_on(work, sample_index, static_cast<unsigned>(bounce), bounce >= roulette_after);
+        if (bounce > 0) go_on(work, sample_index, bounce, 0, bounce >= roulette_after);
         follow(work, bounce == 0, bounce + 1 == bounces);
     }
     bind_records(work.targets.surfaces, binding::surfaces);
@@ -166,8 +176,11 @@ void FarLightPass::follow(const Work& work, bool first, bool last) const {
     }
 }
 
-void FarLightPass::go_on(const Work& work, unsigned sample_index, unsigned stream, bool roulette) const {
+void FarLightPass::go_on(const Work& work, unsigned sample_index, int bounce, unsigned first_stream,
+                         bool roulette) const {
     const gl::Program& continuation = leaving(work).continuation;
+    const unsigned stream = first_stream + static_cast<unsigned>(bounce);
+    set_points(continuation, work, sample_index, bounce);
     continuation.set("sample_index", sample_index);
     continuation.set("stream", stream);
     continuation.set("roulette_stream", roulette_stream + stream);
@@ -181,8 +194,7 @@ std::vector<double> FarLightPass::measure(const Work& work, int bounces) const {
     HemisphereRays{0, measure_stream, false, no_limit, work.targets.pixels()}.run(leaving(work).hemisphere, work);
     for (int bounce = 0; bounce < bounces; ++bounce) {
         follow(work, bounce == 0, false);
-        go_on(work, 0, measure_stream + static_cast<unsigned>(bounce) + 1,
-              false);  // adds what came with the shadow rays
+        go_on(work, 0, bounce + 1, measure_stream, false);  // adds what came with the shadow rays
         glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
         work.batch.paths.read(paths.data(), paths.size() * sizeof(PathRecord));
         double sum = 0.0;

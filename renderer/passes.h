@@ -41,6 +41,9 @@ struct Batch {
     gl::Buffer rays{"rays"}, hits{"hits"}, vertices{"vertices"}, paths{"paths"};
 };
 
+/// Of far light: the accumulators are read and written once for so many samples. Shaders know it, too.
+constexpr std::size_t most_samples_together = 16;
+
 /// What rays are traced for.
 enum class RayKind { camera, shadow, bounce, bounce_shadow, occlusion };
 inline constexpr const char* ray_kind_names[] = {"camera", "shadow", "bounce", "shadow of a bounce", "occlusion"};
@@ -98,8 +101,8 @@ private:
     /// Traces the rays of the batch, adds what the paths meet, and the shadow rays from there. What the last of those
     /// bring is still to be added.
     void follow(const Work& work, bool first, bool last) const;
-    /// Adds that and leaves the rays of the next bounce.
-    void go_on(const Work& work, unsigned sample_index, unsigned stream, bool roulette) const;
+    /// Adds that and leaves the rays of the next bounce. Random numbers are of stream `first_stream` + `bounce`.
+    void go_on(const Work& work, unsigned sample_index, int bounce, unsigned first_stream, bool roulette) const;
     /// How rays leave surfaces, with and without emitters to send them to.
     struct Leaving {
         explicit Leaving(const char* constants)

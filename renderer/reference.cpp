@@ -11,9 +11,10 @@
 namespace farfield {
 namespace {
 
-constexpr int version = 2;                         // of what else decides: raise it when passes.cpp follows paths anew
-constexpr int frame_samples = 8;                   // for each camera ray of a pixel, which antialiases
-constexpr int portion_samples = 512;               // what an interrupted run loses at most
+constexpr int version = 2;            // of what else decides: raise it when passes.cpp follows paths anew
+constexpr int frame_samples = 8;      // for each camera ray of a pixel, which antialiases
+constexpr int portion_samples = 512;  // what an interrupted run loses at most
+constexpr int first_frame = 1 << 20;  // of the first half, the other's is twice that: places in the pixel of their own
 constexpr std::uint32_t first_seed = 0x5eed0000u;  // of the first half; far from those that people give
 
 int half_of(int samples) { return (samples + 1) / 2; }
@@ -131,7 +132,7 @@ bool extend(Reference& reference, Renderer& renderer, Scene scene, glm::ivec2 si
         const int portion = next_portion(half, samples);
         if (portion == 0) return true;
         options.seed = first_seed + behind;
-        options.first_frame = half.samples / frame_samples;
+        options.first_frame = first_frame * static_cast<int>(behind + 1) + half.samples / frame_samples;
         renderer.update(scene, options);
         renderer.discard();
         while (renderer.statistics().samples < portion) {

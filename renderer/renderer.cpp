@@ -5,11 +5,13 @@
 
 #include "renderer/emitters.h"
 #include "renderer/records.h"
+#include "renderer/sobol.h"
 
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -21,22 +23,22 @@ void append_bytes(std::string& bytes, const T& value) {
     bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-/// A low-discrepancy point of the unit square for frame n (Halton, bases 2 and 3); the pixel's centre for frame 0.
-glm::vec2 pixel_offset(int n) {
-    const auto radical_inverse = [](int i, int base) {
-        double result = 0.0, digit = 1.0 / base;
-        for (; i > 0; i /= base, digit /= base) result += digit * (i % base);
-        return static_cast<float>(result);
-    };
-    return n == 0 ? glm::vec2(0.0f) : glm::vec2(radical_inverse(n, 2), radical_inverse(n, 3)) - 0.5f;
+/// Of frame n's camera rays from the pixels' centres, pixels: the point of the first of its samples, so that those of
+/// all frames are spread over pixel and hemisphere together. The centre for frame 0. Of a thousand ways to scramble it
+/// this one leaves edges of all directions the least error after 2 to 256 frames of 1 to 16 samples.
+glm::vec2 pixel_offset(int n, int frame_samples) {
+    constexpr unsigned flips_x = 3219546242u, flips_y = 3400147983u;
+    const unsigned each = std::bit_ceil(static_cast<unsigned>(std::max(frame_samples, 1)));
+    const glm::uvec2 point = sobol(static_cast<unsigned>(n) * each, sobol_pair::camera);
+    const glm::ivec2 moved(scrambled(point.x, flips_x) - scrambled(0, flips_x),
+                           scrambled(point.y, flips_y) - scrambled(0, flips_y));
+    return glm::vec2(moved) * 0x1p-32f;  // modulo 1
 }
 
 /// A further bounce that adds less to the mean of indirect light is left out by automatic bounces. So many paths tell
 /// what adds that much to a few tenths of it.
 constexpr float bounce_threshold = 0.005f;
 constexpr std::size_t measured_paths = 4096;
-/// Of far light: the accumulators are read and written once for so many samples.
-constexpr std::size_t most_samples_together = 16;
 
 void set_camera(FrameRecord& record, const Camera& camera, glm::ivec2 size) {
     const CameraBasis basis(camera);
@@ -213,7 +215,7 @@ void Renderer::begin_frame() {
     FrameRecord record = frame_record(scene_, options_);
     record.emitter_count = emitter_count_;
     set_camera(record, scene_.camera, options_.size);
-    const glm::vec2 offset = pixel_offset(options_.first_frame + completed_cameras_);
+    const glm::vec2 offset = pixel_offset(options_.first_frame + completed_cameras_, frame_samples_);
     record.jitter_x = offset.x;
     record.jitter_y = offset.y;
     record.seed += moves_;

@@ -226,17 +226,18 @@ vec2 unit_square(uvec2 v) {
     return vec2(v >> 8u) * (1.0 / 16777216.0);
 }
 
-// Sample `index` of a pixel: Roberts' R2 sequence (2018), moved from pixel to pixel by the numbers of his R4, which share no
-// ratio with those, and as a whole by a hash of stream and seed. So the pixels that a filter averages share out the
-// hemisphere among them. Any one pixel is uniform over the seeds.
-vec2 sequence_sample(uvec2 pixel, uint index, uint stream) {
-    return unit_square(hash(uvec3(stream, seed, 0u)).xy + index * uvec2(3242174889u, 2447445414u) +
-                       pixel.x * uvec2(3679390609u, 3152041523u) + pixel.y * uvec2(2700274805u, 2313257605u));
+// Points of a low-discrepancy sequence (renderer/sobol.h) that all pixels share are moved, modulo 1, for each pixel otherwise
+// (Cranley and Patterson 1976): by a lattice, found by search (METHOD.md, "Samples"), and as a whole by a hash of stream and
+// seed. So the pixels that a filter averages share out the hemisphere among them. Any one pixel is uniform over the seeds.
+vec2 stratified_sample(uvec2 pixel, uvec2 point, uint stream) {
+    return unit_square(point + hash(uvec3(stream, seed, 0u)).xy + pixel.x * uvec2(1706056358u, 2975996583u) +
+                       pixel.y * uvec2(767103493u, 2002359280u));
 }
 
-// The same without stratification: for further bounces, where one sequence for all dimensions would be biased.
-vec2 independent_sample(uint pixel, uint index, uint stream) {
-    return unit_square(hash(uvec3(pixel ^ (seed * 0x9e3779b9u), index, stream)).xy);
+// The same by a hash of the pixel, for further bounces: moved by one lattice in all dimensions, neighbours would share out no
+// more than a slice of them, and what a filter makes of them would be biased.
+vec2 independent_sample(uint pixel, uvec2 point, uint stream) {
+    return unit_square(point + hash(uvec3(pixel, seed, stream)).xy);
 }
 
 // Direction about unit n with density cos / pi (Malley's method in the basis of Duff et al. 2017).

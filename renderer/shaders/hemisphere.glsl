@@ -5,9 +5,9 @@ layout(local_size_x = 64) in;
 uniform uint pixel_count;
 uniform uint first_pixel;
 uniform uint spread;        // not 0: the surfaces are taken evenly from so many
-uniform uint sample_index;  // of the first sample; counts on over frames
+uniform uvec2 points[16];   // of the samples, see stratified_sample
 uniform uint stream;
-uniform int stratified;     // 1: low-discrepancy sequence, for dimensions that are a pixel's first
+uniform int stratified;     // 1: between pixels, too
 uniform float reach;
 
 void main() {
@@ -17,8 +17,8 @@ void main() {
     umulExtended(i * 2654435769u, spread, even, unused);  // multiples of the golden ratio, modulo 1
     uint pixel = first_pixel + i;
     Surface s = load_surface(spread > 0u ? even : pixel);
-    uint index = sample_index + gl_WorkGroupID.y;
-    vec2 u = stratified == 1 ? sequence_sample(place_of(pixel), index, stream) : independent_sample(pixel, index, stream);
+    uvec2 point = points[gl_WorkGroupID.y];
+    vec2 u = stratified == 1 ? stratified_sample(place_of(pixel), point, stream) : independent_sample(pixel, point, stream);
     uint place = gl_WorkGroupID.y * pixel_count + i;
     float ray_reach = s.material != no_surface ? reach : 0.0;
 #if guided
