@@ -69,17 +69,17 @@ TEST(CommandLine, AutomaticBouncesSayWhatTheyCameTo) {
 TEST(CommandLine, RenderingStopsAtANoiseOrATime) {
     const TemporaryFolder folder;
     const std::string render =
-        fmt::format("render {} -o '{}' --size 32x32 --samples 4 ", scene("gyroid"), (folder / "a.png").string());
+        fmt::format("render {} -o '{}' --size 32x32 --samples 4 ", scene("cornell"), (folder / "a.png").string());
     const auto frames = [&](const std::string& options) {
         const Outcome outcome = farfield_command(render + options);
         EXPECT_EQ(outcome.status, 0) << outcome.output;
         const std::size_t at = outcome.output.find("samples in ");
         return at == std::string::npos ? -1 : std::stoi(outcome.output.substr(at + 11));
     };
-    const int coarse = frames("--method reference --noise 4"), fine = frames("--method reference --noise 2");
+    const int coarse = frames("--method reference --noise 16"), fine = frames("--method reference --noise 8");
     EXPECT_GT(coarse, 4);
     EXPECT_NEAR(fine, 4 * coarse, 2 * coarse);  // a quarter of the variance; looked at every quarter more
-    EXPECT_LT(frames("--noise 4"), coarse);
+    EXPECT_LT(frames("--noise 16"), coarse);
     EXPECT_EQ(frames("--noise 1 --frames 2"), 2);
     EXPECT_EQ(frames("--noise off --seconds 0.001"), 1);
     EXPECT_EQ(frames("--noise 0.1 --seconds 0.001"), 1);
