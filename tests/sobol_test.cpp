@@ -3,13 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <set>
-#include <utility>
 
 namespace farfield {
 namespace {
 
-/// Which of 2^digits parts of 0..1 a coordinate lies in.
-unsigned part(unsigned coordinate, unsigned digits) { return digits == 0 ? 0 : coordinate >> (32 - digits); }
+/// Which of 2^digits parts of 0..1 a coordinate lies in; one digit at least.
+unsigned part(unsigned coordinate, unsigned digits) { return coordinate >> (32 - digits); }
 
 TEST(Sobol, BeginsAsPublished) {
     // In units of 1/8: dimensions 0 to 3 of points 1 to 4.

@@ -235,7 +235,13 @@ std::vector<Case> temporal_cases() {
              {0.03, 0.1, 0.3, 1, 3, 10},
              "error of indirect light with the past / without",
              reprojection,
-             [](const Point& p) { return p.value <= 3.0 ? 0.85 : 1.0; }}};
+             [](const Point& p) { return p.value <= 3.0 ? 0.8 : 1.0; },
+             false,
+             "A move of 3 degrees: the first picture of one sample came nearer to the truth when places and directions "
+             "were made "
+             "one sequence (0.170 to 0.135 of the mean), and what the past makes of it did not (0.11, as before), so "
+             "the past is "
+             "worth less. See the errors below."}};
 }
 
 }  // namespace farfield::stability
