@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <numeric>
 #include <string_view>
 
 namespace farfield {
@@ -93,6 +94,9 @@ public:
                 lane_slots(own, static_cast<std::size_t>(limit_.lanes), tracer.rays_each(part, work.rays()),
                            tracer.claiming_evaluations(part), tracer.pause());
             before = after;
+            const auto near = std::count_if(own.begin(), own.end(), [](auto s) { return s > 0; });
+            const auto all = std::accumulate(own.begin(), own.end(), std::int64_t{0});
+            plain_[part].set("march_evaluations", near > 0 ? static_cast<int>((all + near / 2) / near) : 1);
         }
         for (std::size_t part = 0; part < tracer.parts(); ++part)
             plain_seconds += watch_.seconds([&] { tracer.run(plain_[part], part, work.rays()); });

@@ -54,7 +54,7 @@ constexpr std::uint64_t turns_of_march = 6;
 constexpr std::uint64_t safe_turns = 4096;
 
 /// Evaluations of a ray. Flat fields (GeneratedScene::flat) need more, see march.glsl.
-std::uint64_t march_limit(const GeneratedScene& generated) { return generated.flat ? 512 : 256; }
+std::uint64_t march_limit(const GeneratedScene& generated) { return generated.marches_flat ? 512 : 256; }
 
 /// The driver's log with the name of the node whose line it complains about. Logs name lines as 2:17(8) or 2(17).
 std::string explain(const Scene& scene, const GeneratedScene& generated, const std::string& log) {
@@ -98,7 +98,9 @@ std::string members_source(std::size_t vectors) {
 
 std::string scene_kernel_source(const std::string& file, const GeneratedScene& generated, bool shares_rays) {
     std::string constants(shares_rays ? sharing : not_sharing);
-    constants += fmt::format("#define claims_rays {}\n", shares_rays && generated.loop_turns > 0 ? 1 : 0);
+    constants += fmt::format("#define claims_rays {}\n#define casts {}\n#define marches {}\n",
+                             shares_rays && generated.loop_turns > 0 ? 1 : 0, generated.casts ? 1 : 0,
+                             generated.marches ? 1 : 0);
     const std::string kernel = shader_source(file, constants);
     // The scene goes between the common part and the kernel's own, which starts at the second #line directive.
     const std::size_t own = kernel.rfind("#line 1 0\n");
@@ -117,7 +119,8 @@ std::string scene_kernel_source(const std::string& file, const GeneratedScene& g
     } else if (count > 0) {
         text += "float parameter(int i) { return parameter_block[i >> 2][i & 3]; }\n";
     }
-    text += fmt::format("void load_parameters() {{\n{}}}\nconst bool flat_field = {};\n", load, generated.flat);
+    text += fmt::format("void load_parameters() {{\n{}}}\nconst bool flat_field = {};\n", load,
+                        marches ? generated.marches_flat : generated.flat);
     if (marches)
         text +=
             fmt::format("const int usual_limit = {};\nconst uint most_turns = {}u;\nconst uint turns_of_march = {}u;\n",
@@ -250,8 +253,9 @@ void TracePrograms::select(const Scene& scene, Tier tier, Id tuned) {
             part.boxes.upload(std::span<const BoxTree::Node>(code->members->boxes.nodes));
         }
         // Hits lie up to an epsilon before the surface; rays that run along the bounds must not lose them to rounding.
-        part.bounds = {generated.bounds.low - 0.01f * (1.0f + glm::abs(generated.bounds.low)),
-                       generated.bounds.high + 0.01f * (1.0f + glm::abs(generated.bounds.high))};
+        const Box& marched = generated.marched_bounds;
+        part.bounds = {marched.low - 0.01f * (1.0f + glm::abs(marched.low)),
+                       marched.high + 0.01f * (1.0f + glm::abs(marched.high))};
         first += static_cast<unsigned>(part.members());
     }
     current_ = std::move(parts);
@@ -338,6 +342,7 @@ TracePrograms::Turns TracePrograms::turns(const Part& part) const {
 
 std::size_t TracePrograms::rays_each(std::size_t number, std::size_t count) const {
     const Part& part = current_[number];
+    if (!part.code->members && !part.code->generated.marches) return 1;
     std::size_t most = claims_rays(part) ? 1 : schedule_.rays_each;
     if (const auto& members = part.code->members)
         most = std::min<std::size_t>(most, std::max<std::uint64_t>(safe_turns / members->boxes.longest_walk, 1));

@@ -134,6 +134,27 @@ void CodeWriter::add_derived(const FieldNode& n, Numbers& numbers) {
         numbers.low = literal(n.region.low), numbers.high = literal(n.region.high);
 }
 
+std::string CodeWriter::direction(const FieldNode& n, const std::string& v) {
+    if (block_.is_live(n)) return fmt::format("turn({}, {})", v, block_.first(n));
+    return n.to_own == glm::mat3(1.0f) ? v : literal(n.to_own) + " * " + v;
+}
+
+CodeWriter::Group CodeWriter::begin(const FieldNode& n, const std::string& p, const std::string& v, CodeLines& out) {
+    constexpr const char* indent = "    ";
+    const int id = next_group_++;
+    out.add(indent, n.id, comment(n));
+    Group group{id, numbers(n, p), p, v};
+    if (group.numbers.point != p) {
+        group.p = fmt::format("p{}", id);
+        out.add(fmt::format("{}vec3 {} = {};", indent, group.p, group.numbers.point), n.id);
+    }
+    if (const std::string turned = direction(n, v); turned != v) {
+        group.v = fmt::format("v{}", id);
+        out.add(fmt::format("{}vec3 {} = {};", indent, group.v, turned), n.id);
+    }
+    return group;
+}
+
 std::string CodeWriter::comment(const FieldNode& n) {
     if (n.name.empty() && n.kind->role == Role::instance) return "";  // the function's name tells
     return n.name.empty()             ? n.kind->key

@@ -51,6 +51,15 @@ protected:
     };
 
     Numbers numbers(const FieldNode& n, const std::string& p);
+    /// A ray's direction in the node's own frame.
+    std::string direction(const FieldNode& n, const std::string& v);
+    /// A node with children, as rays see it: point and direction in its own frame.
+    struct Group {
+        int id;
+        Numbers numbers;
+        std::string p, v;
+    };
+    Group begin(const FieldNode& n, const std::string& p, const std::string& v, CodeLines& out);
     static std::string read(const Parameter& parameter, std::size_t at);
     static std::string written(const Parameter& parameter, glm::vec3 v);
     Numbers live_numbers(const FieldNode& n, const std::string& p, std::size_t first) const;

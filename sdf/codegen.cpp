@@ -1,5 +1,6 @@
 #include "sdf/codegen.h"
 
+#include "sdf/cast_writer.h"
 #include "sdf/march_writer.h"
 #include "sdf/shape_library.h"
 
@@ -27,7 +28,13 @@ constexpr const char* live_helpers =
 
 bool is_flat(const FieldNode& n) {
     return n.code || n.kind->stretch || (n.kind->role == Role::primitive && !n.kind->exact) ||
-           std::any_of(n.children.begin(), n.children.end(), is_flat);
+           std::any_of(n.children.begin(), n.children.end(), [](const FieldNode& child) { return is_flat(child); });
+}
+
+bool is_flat(const FieldTree& tree) {
+    return (tree.root && is_flat(*tree.root)) ||
+           std::any_of(tree.definitions.begin(), tree.definitions.end(),
+                       [](const FieldNode& definition) { return is_flat(definition); });
 }
 
 /// Of the node's loops in one evaluation, `definitions` those of the tree's. A loop takes two turns more than those
@@ -65,18 +72,35 @@ constexpr const char* inherited_helper =
     "    return parameter(i) < 0.0 ? inherited : uint(parameter(i));\n"
     "}\n";
 
+CodeLines write_for_rays(const FieldTree& tree, ParameterBlock& block, const CodeNames& names, bool by_distance,
+                         GeneratedScene& generated) {
+    CastAndMarched rays{{}, tree};
+    if (!by_distance) rays = divide_for_rays(tree, block);
+    const FieldTree& marched = rays.marched;
+    generated.casts = rays.cast.root.has_value();
+    generated.marches = marched.root || !generated.casts;
+    generated.loop_turns = generated.marches ? loop_turns(marched, !block.values.empty()) : 0;
+    generated.marches_flat = is_flat(marched);
+    generated.marched_bounds = marched.bounds();
+    CodeLines all{names};
+    if (generated.casts) all.append(CastWriter(rays.cast, names, block).write());
+    if (generated.casts && generated.marches) all.add("");
+    if (generated.marches) all.append(MarchWriter(marched, names, block, by_distance, !generated.casts).write());
+    return all;
+}
+
 CodeLines write(const FieldTree& tree, ParameterBlock& block, const CodeNames& names, bool by_distance,
                 GeneratedScene& generated) {
     std::string called;
     const CodeLines custom = CodeWriter(tree, names, block, false).custom_functions(called);
     const CodeLines distance = CodeWriter(tree, names, block, false).write();
     const CodeLines material = CodeWriter(tree, names, block, true).write();
-    const CodeLines march = MarchWriter(tree, names, block, by_distance).write();
+    const CodeLines rays = write_for_rays(tree, block, names, by_distance, generated);
 
     CodeLines all{names};
-    std::string library = used_shapes(called + distance.key + material.key + march.key);
+    std::string library = used_shapes(called + distance.key + material.key + rays.key);
     if (!block.values.empty()) library += live_helpers;
-    if (march.key.find("turn(") != std::string::npos) library += direction_helper;
+    if (rays.key.find("turn(") != std::string::npos) library += direction_helper;
     if (material.key.find("live_material(") != std::string::npos) library += inherited_helper;
     if (!block.values.empty()) library += "\n";
     for (std::size_t start = 0; start < library.size();) {
@@ -93,7 +117,7 @@ CodeLines write(const FieldTree& tree, ParameterBlock& block, const CodeNames& n
     all.append(material);
     all.add("");
     generated.march_at = all.text.size();
-    all.append(march);
+    all.append(rays);
     return all;
 }
 
@@ -118,10 +142,8 @@ GeneratedScene generate(const FieldTree& tree, Tier tier, Id tuned, bool by_dist
     generated.key = std::move(all.key);
     generated.parameters = std::move(block.values);
     generated.line_nodes = std::move(all.nodes);
-    generated.loop_turns = loop_turns(tree, !generated.parameters.empty());
     generated.bounds = tree.bounds();
-    generated.flat =
-        (tree.root && is_flat(*tree.root)) || std::any_of(tree.definitions.begin(), tree.definitions.end(), is_flat);
+    generated.flat = is_flat(tree);
     return generated;
 }
 

@@ -21,10 +21,11 @@ enum class Tier { live, specialised };
 struct GeneratedScene {
     /// Shape functions used, the code of custom nodes, functions of definitions, then `float scene_distance(vec3 p)`,
     /// `float scene_surface(vec3 p, out uint material)` (world frame, metres; material code as blend_materials makes
-    /// it) and `vec2 scene_march(vec3 p, vec3 v)` (see march_writer.h). With parameters it also needs
+    /// it) and what rays ask for: `float scene_cast(vec3 p, vec3 v)` (see cast_writer.h) and, of what that leaves out,
+    /// `vec2 scene_march(vec3 p, vec3 v)` (see march_writer.h), one of them or both. With parameters it also needs
     /// `float parameter(int)`.
     std::string text;
-    /// Where in `text` the functions begin that are for scene_surface alone, and those for scene_march alone: a program
+    /// Where in `text` the functions begin that are for scene_surface alone, and those for rays alone: a program
     /// with one of the two needs no more of the rest than what stands before the first.
     std::size_t surface_at = 0, march_at = 0;
     /// Where in `text` and in `key` ends what does not depend on the nodes' numbers but for those that the code of
@@ -37,15 +38,17 @@ struct GeneratedScene {
     std::vector<float> parameters;
     /// For each line of `text`, from the first, the node it belongs to; 0 where it belongs to none.
     std::vector<Id> line_nodes;
-    /// Whether the field can be much flatter than the distance: bounds of stretched space, some primitives.
-    bool flat = false;
+    bool casts = false, marches = false;  ///< which of the two functions are there
+    /// Whether the field, and that of what is marched, can be much flatter than the distance: bounds of stretched
+    /// space, some primitives.
+    bool flat = false, marches_flat = false;
     /// Turns of loops in an evaluation by scene_march, at most; 0: it has none.
     std::uint64_t loop_turns = 0;
     /// Of a family (sdf/families.h): so many vec4 of numbers each of its members has. The program needs them as
     /// `member0`, `member1`, ...; 0 for a scene that is no family.
     std::size_t member_vectors = 0;
-    /// Box around all surfaces, world frame; a ray outside meets nothing.
-    Box bounds;
+    /// Boxes around all surfaces and around those that are marched, world frame; a ray outside meets nothing.
+    Box bounds, marched_bounds;
 };
 
 /// `tuned`: a node whose own values, transform and material come from the parameter block in the specialised tier too.

@@ -186,8 +186,8 @@ GeneratedScene code_of_all(GeneratedScene code, const NumberLayout& layout) {
                                            [&](std::string_view number) { return read(layout, i++, number); });
         for (const char* function : {"float scene_distance(", "float scene_surface("})
             if (part.find(function) != std::string::npos) begin_with(part, function, point);
-        if (part.find("vec2 scene_march(") != std::string::npos)
-            begin_with(part, "vec2 scene_march(", point + direction);
+        for (const char* function : {"float scene_cast(", "vec2 scene_march("})
+            if (part.find(function) != std::string::npos) begin_with(part, function, point + direction);
         return part;
     };
     std::string text = code.text.substr(0, code.own_at) + with_reads(code.text, code.own_at, code.surface_at);

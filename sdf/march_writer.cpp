@@ -24,8 +24,9 @@ bool adds(const KindInfo& kind) { return kind.when_zero && kind.gather == Gather
 
 }  // namespace
 
-MarchWriter::MarchWriter(const FieldTree& tree, const CodeNames& names, ParameterBlock& block, bool by_distance)
-    : CodeWriter(tree, names, block, false), by_distance_(by_distance) {
+MarchWriter::MarchWriter(const FieldTree& tree, const CodeNames& names, ParameterBlock& block, bool by_distance,
+                         bool whole)
+    : CodeWriter(tree, names, block, false), by_distance_(by_distance), whole_(whole) {
     writes_copies_ = false;
     for (const FieldNode& n : tree.definitions) definitions_live_.push_back(is_live_below(n));
 }
@@ -50,8 +51,8 @@ CodeLines MarchWriter::write() {
     }
     next_group_ = next_child_ = 0;
     CodeLines body{names_};
-    const March result = tree_.root && gains(*tree_.root, 0.0f) ? march(*tree_.root, "p", "v", 0.0f, body)
-                                                                : March{"vec2(scene_distance(p))"};
+    const bool says_more = tree_.root && (!whole_ || gains(*tree_.root, 0.0f));
+    const March result = says_more ? march(*tree_.root, "p", "v", 0.0f, body) : March{"vec2(scene_distance(p))"};
     take_functions(all);
     all.add("vec2 scene_march(vec3 p, vec3 v) {");
     all.append(body);
@@ -150,24 +151,9 @@ bool MarchWriter::blends_primitives(const FieldNode& n) const {
            std::all_of(n.children.begin(), n.children.end(), is_held);
 }
 
-MarchWriter::Group MarchWriter::begin(const FieldNode& n, const std::string& p, const std::string& v, CodeLines& out) {
-    const int id = next_group_++;
-    out.add(indent, n.id, comment(n));
-    Group group{id, numbers(n, p), p, v, fmt::format("d{}", id)};
-    if (group.numbers.point != p) {
-        group.p = fmt::format("p{}", id);
-        out.add(fmt::format("{}vec3 {} = {};", indent, group.p, group.numbers.point), n.id);
-    }
-    if (const std::string turned = direction(n, v); turned != v) {
-        group.v = fmt::format("v{}", id);
-        out.add(fmt::format("{}vec3 {} = {};", indent, group.v, turned), n.id);
-    }
-    return group;
-}
-
 MarchWriter::March MarchWriter::end(const FieldNode& n, const Group& group, float level, bool knows_distance,
                                     CodeLines& out) {
-    const std::string &d = group.d, &factor = group.numbers.factor;
+    const std::string d = variable(group), &factor = group.numbers.factor;
     if (!factor.empty()) out.add(fmt::format("{}{} = {}{};", indent, d, factor, d), n.id);
     if (!knows_distance)
         out.add(
@@ -212,7 +198,8 @@ void MarchWriter::fold(const FieldNode& n, const Numbers& num, const std::string
 }
 
 void MarchWriter::blend(const FieldNode& n, const Group& group, float level, CodeLines& out) {
-    const auto& [id, num, own, turned, d] = group;
+    const auto& [id, num, own, turned] = group;
+    const std::string d = variable(group);
     const float fill = n.reach(), radius = n.values[0].x;
     const std::string levels = literal(glm::vec3(level, level + fill, level + fill + radius)),
                       ways = fmt::format("w{}", id);
@@ -243,7 +230,8 @@ MarchWriter::March MarchWriter::group(const FieldNode& n, const std::string& p, 
                                       CodeLines& out) {
     const KindInfo& kind = *n.kind;
     const Group group = begin(n, p, v, out);
-    const auto& [id, num, own, turned, d] = group;
+    const auto& [id, num, own, turned] = group;
+    const std::string d = variable(group);
     if (is_convex_pair(n)) {
         out.add(fmt::format("{}vec2 {} = {};", indent, d, tangent(n.children[0], own, turned)), n.children[0].id,
                 comment(n.children[0]));
@@ -266,7 +254,8 @@ MarchWriter::March MarchWriter::moved(const FieldNode& n, const std::string& p, 
                                       CodeLines& out) {
     const KindInfo& kind = *n.kind;
     const Group group = begin(n, p, v, out);
-    const auto& [id, num, own, turned, d] = group;
+    const auto& [id, num, own, turned] = group;
+    const std::string d = variable(group);
     const std::string args = num.arguments + num.derived;
     const int cells = kind.role == Role::repeat ? kind.cells(n.values) : 1;
     std::string along = turned;
@@ -350,11 +339,6 @@ std::string MarchWriter::stay(const FieldNode& n, const std::string& p, const st
     else
         add_children("(" + own.point + ")");
     return own.factor + longest;
-}
-
-std::string MarchWriter::direction(const FieldNode& n, const std::string& v) {
-    if (block_.is_live(n)) return fmt::format("turn({}, {})", v, block_.first(n));
-    return n.to_own == glm::mat3(1.0f) ? v : literal(n.to_own) + " * " + v;
 }
 
 }  // namespace farfield

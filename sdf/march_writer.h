@@ -26,8 +26,8 @@ namespace farfield {
 class MarchWriter : private CodeWriter {
 public:
     /// To be written after the functions of the distance, which it calls. `by_distance`: nothing but the distance
-    /// counts.
-    MarchWriter(const FieldTree& tree, const CodeNames& names, ParameterBlock& block, bool by_distance);
+    /// counts. `whole`: `tree` is all of the scene, not what rays are not cast at.
+    MarchWriter(const FieldTree& tree, const CodeNames& names, ParameterBlock& block, bool by_distance, bool whole);
 
     CodeLines write();
 
@@ -42,12 +42,8 @@ private:
         std::string value;
         bool named = false;
     };
-    /// A node with children: point and direction in its own frame, and the variable of both its numbers.
-    struct Group {
-        int id;
-        Numbers numbers;
-        std::string p, v, d;
-    };
+    /// Of both numbers of a node with children.
+    static std::string variable(const Group& group) { return "d" + std::to_string(group.id); }
     March march(const FieldNode& n, const std::string& p, const std::string& v, float level, CodeLines& out);
     March plain(const FieldNode& n, const std::string& p, const std::string& v, float level, CodeLines& out);
     /// Of a convex primitive: the distance and its slope.
@@ -58,14 +54,13 @@ private:
     bool is_convex_pair(const FieldNode& n) const;
     /// Primitives in a smooth union, some of them convex, all of them with a slope or a box.
     bool blends_primitives(const FieldNode& n) const;
-    /// Those, in the variable `d` that this declares.
+    /// Those, in the variable of the group, which this declares.
     void blend(const FieldNode& n, const Group& group, float level, CodeLines& out);
     /// What moves the ray in space and leaves it straight for a while.
     March moved(const FieldNode& n, const std::string& p, const std::string& v, float level, CodeLines& out);
     /// The children together, in the variable `d` that this declares.
     void fold(const FieldNode& n, const Numbers& num, const std::string& d, const std::string& p, const std::string& v,
               float below, CodeLines& out);
-    Group begin(const FieldNode& n, const std::string& p, const std::string& v, CodeLines& out);
     /// Brings both numbers to the parent's frame. A distance is always a way that is free: unless that is sure, as
     /// `knows_distance` says, it is put in.
     static March end(const FieldNode& n, const Group& group, float level, bool knows_distance, CodeLines& out);
@@ -78,9 +73,7 @@ private:
     std::string stay(const FieldNode& n, const std::string& p, const std::string& v, float level);
     bool knows_stay(const FieldNode& n, float level) const;
 
-    std::string direction(const FieldNode& n, const std::string& v);
-
-    bool by_distance_;
+    bool by_distance_, whole_;
     std::vector<bool> definitions_live_;  ///< is_live_below
     std::vector<bool> definitions_gain_;
 };

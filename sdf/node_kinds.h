@@ -136,6 +136,9 @@ struct KindInfo {
     /// Of some of these: float f(vec3 p, vec3 v, float depth, parameters...), how far along v the distance stays below
     /// -depth.
     const char* within;
+    /// Of those that a line crosses in closed form: vec2 f(vec3 p, vec3 v, parameters...), from where to where on the
+    /// line p + t v it is inside the shape; the first is larger than the second if it nowhere is.
+    const char* span;
     /// A second function from there, or null. combine: float f(a, b, parameters...), the fraction of b's material;
     /// domain: float f(d, p, parameters..., derived...), a safe distance; repeat: int f(parameters..., derived...), the
     /// number of cells.
@@ -158,6 +161,7 @@ struct KindInfo {
     float (*primitive)(glm::vec3 p, Values v);
     glm::vec2 (*slope)(glm::vec3 p, glm::vec3 direction, Values v);
     float (*stay)(glm::vec3 p, glm::vec3 direction, float depth, Values v);
+    glm::vec2 (*crossed)(glm::vec3 p, glm::vec3 direction, Values v);
     float (*combine)(float a, float b, Values v);
     float (*weight)(float a, float b, Values v);
     glm::vec3 (*domain)(glm::vec3 p, Values v, int cell);

@@ -615,3 +615,20 @@ vec2 advance_in_box(float d, float level, vec3 p, vec3 v, vec3 half_size) {
     vec2 to_box = box_along(p, v, half_size);
     return vec2(d, max(d - level, max(to_box.x - level, 0.0f) / max(-to_box.y, 1e-20f)));
 }
+
+// How far a ray goes until it is where a span begins; 1e20 if it never is.
+float way_into(vec2 span) {
+    return span.x <= span.y && span.y >= 0.0f ? max(span.x, 0.0f) : 1e20f;
+}
+
+// What two spans have in common.
+vec2 span_of_both(vec2 a, vec2 b) {
+    return vec2(max(a.x, b.x), min(a.y, b.y));
+}
+
+// From t on, how far it goes until it is outside of what is taken away, which counts a little larger: of two surfaces at the
+// same place nothing is left.
+float way_out_of(vec2 span, float t) {
+    float slack = 1e-6f * (1.0f + t);
+    return t >= span.x - slack && t < span.y + slack ? span.y + slack : t;
+}

@@ -41,6 +41,11 @@ void make_convex(KindInfo& k, const char* along, glm::vec2 (*slope)(glm::vec3, g
     k.along = along, k.slope = slope, k.within = within, k.stay = stay;
 }
 
+/// One that lines cross in closed form.
+void make_crossed(KindInfo& k, const char* span, glm::vec2 (*crossed)(glm::vec3, glm::vec3, Values)) {
+    k.span = span, k.crossed = crossed;
+}
+
 KindInfo make_profile(NodeKind kind, const char* key, const char* label, const char* tip,
                       std::vector<Parameter> parameters, Extent (*extent)(Values), const char* function,
                       float (*evaluate)(glm::vec3, Values)) {
@@ -57,10 +62,12 @@ void add_primitives(std::vector<KindInfo>& t) {
         K::sphere, "sphere", "Sphere", "All points within a radius", true, {length("radius", "Radius", 0.5f)},
         [](Values v) { return within(glm::vec3(v[0].x)); }, FUNCTION(primitive, sphere)));
     make_convex(t.back(), FUNCTION(slope, sphere_along), FUNCTION(stay, sphere_within));
+    make_crossed(t.back(), FUNCTION(slope, sphere_span));
     t.push_back(make_primitive(
         K::box, "box", "Box", "A box with sharp edges", true, {lengths("half_size", "Half the edge lengths", 0.5f)},
         [](Values v) { return within(v[0]); }, FUNCTION(primitive, box)));
     make_convex(t.back(), FUNCTION(slope, box_along), FUNCTION(stay, box_within));
+    make_crossed(t.back(), FUNCTION(slope, box_span));
     t.push_back(make_primitive(
         K::rounded_box, "rounded_box", "Rounded box", "A box with rounded edges", true,
         {lengths("half_size", "Half the edge lengths, rounding included", 0.5f),
@@ -77,6 +84,7 @@ void add_primitives(std::vector<KindInfo>& t) {
         {length("radius", "Radius", 0.25f), length("half_height", "Half the length of the straight part", 0.25f)},
         [](Values v) { return turned(v[0].x, -v[0].x - v[1].x, v[0].x + v[1].x); }, FUNCTION(primitive, capsule)));
     make_convex(t.back(), FUNCTION(slope, capsule_along));
+    make_crossed(t.back(), FUNCTION(slope, capsule_span));
     t.push_back(make_primitive(
         K::capped_cylinder, "capped_cylinder", "Cylinder", "A cylinder along y with flat ends", true,
         {length("radius", "Radius", 0.4f), length("half_height", "Half the height", 0.5f)},
@@ -85,11 +93,13 @@ void add_primitives(std::vector<KindInfo>& t) {
         },
         FUNCTION(primitive, capped_cylinder)));
     make_convex(t.back(), FUNCTION(slope, capped_cylinder_along), FUNCTION(stay, capped_cylinder_within));
+    make_crossed(t.back(), FUNCTION(slope, capped_cylinder_span));
     t.push_back(make_primitive(
         K::cone, "cone", "Cone", "A cone along y, tip up, with a flat base", true,
         {length("radius", "Radius of the base", 0.5f), length("half_height", "Half the height", 0.5f)},
         [](Values v) { return turned(v[0].x, -v[1].x, v[1].x); }, FUNCTION(primitive, cone)));
     make_convex(t.back(), FUNCTION(slope, cone_along));
+    make_crossed(t.back(), FUNCTION(slope, cone_span));
     t.push_back(make_primitive(
         K::plane, "plane", "Plane", "Everything at and below y = 0", true, {},
         [](Values) {
@@ -97,6 +107,7 @@ void add_primitives(std::vector<KindInfo>& t) {
         },
         FUNCTION(primitive, plane)));
     make_convex(t.back(), FUNCTION(slope, plane_along), FUNCTION(stay, plane_within));
+    make_crossed(t.back(), FUNCTION(slope, plane_span));
     t.push_back(make_primitive(
         K::infinite_cylinder, "infinite_cylinder", "Infinite cylinder", "A cylinder along y without ends", true,
         {length("radius", "Radius", 0.25f)},
@@ -105,6 +116,7 @@ void add_primitives(std::vector<KindInfo>& t) {
         },
         FUNCTION(primitive, infinite_cylinder)));
     make_convex(t.back(), FUNCTION(slope, infinite_cylinder_along), FUNCTION(stay, infinite_cylinder_within));
+    make_crossed(t.back(), FUNCTION(slope, infinite_cylinder_span));
     t.push_back(make_primitive(
         K::box_frame, "box_frame", "Box frame", "The twelve edges of a box, as bars", true,
         {lengths("half_size", "Half the edge lengths", 0.5f),
@@ -143,6 +155,7 @@ void add_primitives(std::vector<KindInfo>& t) {
          length("upper_radius", "Radius of the upper end", 0.25f), length("half_height", "Half the height", 0.5f)},
         [](Values v) { return turned(glm::max(v[0].x, v[1].x), -v[2].x, v[2].x); }, FUNCTION(primitive, capped_cone)));
     make_convex(t.back(), FUNCTION(slope, capped_cone_along));
+    make_crossed(t.back(), FUNCTION(slope, capped_cone_span));
     t.push_back(make_primitive(
         K::round_cone, "round_cone", "Round cone", "Two balls and all between them, along y", true,
         {length("lower_radius", "Radius of the lower ball", 0.35f),
@@ -228,6 +241,7 @@ void add_primitives(std::vector<KindInfo>& t) {
         {lengths("radii", "Half the lengths along x, y and z", 0.5f, 1e-3f)}, [](Values v) { return within(v[0]); },
         FUNCTION(primitive, ellipsoid)));
     make_convex(t.back(), FUNCTION(slope, ellipsoid_along));
+    make_crossed(t.back(), FUNCTION(slope, ellipsoid_span));
     t.push_back(make_profile(
         K::circle, "circle", "Circle", "A profile: all points within a radius of the z axis",
         {length("radius", "Radius", 0.5f)},

@@ -10,7 +10,10 @@
 //
 // After convex shapes stands what the tracer asks of them: the distance and, outside, its slope along the unit vector v. The
 // gradient is the unit vector from the nearest point to p; at creases of the distance any gradient between will do. And of
-// some, how far a ray from p along v stays inside, more than `depth` below the surface: 0 where p is not.
+// some, how far a ray from p along v stays inside, more than `depth` below the surface: 0 where p is not. And of those that a
+// line crosses in closed form, from where to where on the line p + t v it is inside: the first number is larger than the second
+// if it nowhere is. Quadratics are solved around the point of the line that is nearest to the shape's middle, because
+// their rounding grows with the square of the distance from there (Haines, Günther and Akenine-Möller 2019).
 
 // ---- primitives ----------------------------------------------------------------------------------------------------
 
@@ -27,6 +30,14 @@ float sphere_within(vec3 p, vec3 v, float depth, float radius) {
     float along = dot(p, v);
     float outside = dot(p, p) - (radius - depth) * (radius - depth);
     return outside < 0.0f && depth < radius ? sqrt(along * along - outside) - along : 0.0f;
+}
+
+vec2 sphere_span(vec3 p, vec3 v, float radius) {
+    float nearest = -dot(p, v);
+    vec3 q = p + nearest * v;
+    float square = radius * radius - dot(q, q);
+    float half_span = square < 0.0f ? -1e20f : sqrt(square);
+    return vec2(nearest - half_span, nearest + half_span);
 }
 
 float box(vec3 p, vec3 half_size) {
@@ -46,6 +57,15 @@ float box_within(vec3 p, vec3 v, float depth, vec3 half_size) {
     vec3 q = abs(p) - inner;
     vec3 ways = (inner - p * sign(v)) / max(abs(v), vec3(1e-20f));
     return max(q.x, max(q.y, q.z)) < 0.0f ? min(ways.x, min(ways.y, ways.z)) : 0.0f;
+}
+
+vec2 box_span(vec3 p, vec3 v, vec3 half_size) {
+    vec3 inverse = 1.0f / (v + vec3(1e-20f));
+    vec3 middle = -p * inverse;
+    vec3 half_span = half_size * abs(inverse);
+    vec3 first = middle - half_span;
+    vec3 last = middle + half_span;
+    return vec2(max(first.x, max(first.y, first.z)), min(last.x, min(last.y, last.z)));
 }
 
 // A box whose edges are rounded within its size; the radius is limited to the smallest half size.
@@ -127,6 +147,11 @@ float plane_within(vec3 p, vec3 v, float depth) {
     return max(-p.y - depth, 0.0f) / max(v.y, 1e-20f);
 }
 
+vec2 plane_span(vec3 p, vec3 v) {
+    float meets = -p.y / (v.y + 1e-20f);
+    return v.y < 0.0f ? vec2(meets, 1e20f) : vec2(-1e20f, meets);
+}
+
 // A bound: that of the ball of the same relative size, or the distance to the box around it, whichever is larger. The exact
 // distance, by Newton's method in a loop, took 2.2 times as long for 1 % fewer evaluations per ray: the tracer learns slopes.
 // The usual bound k0 (k0 - 1) / |p / radii²| grows faster than 1 beside the rim of thin bodies, without limit.
@@ -141,6 +166,16 @@ vec2 ellipsoid_along(vec3 p, vec3 v, vec3 radii) {
     vec2 in_ball = sphere_along(p / radii, v / radii, 1.0f) * shortest;
     vec2 in_box = box_along(p, v, radii);
     return in_ball.x > in_box.x ? in_ball : in_box;
+}
+
+vec2 ellipsoid_span(vec3 p, vec3 v, vec3 radii) {
+    vec3 w = v / radii;
+    float square_of_w = dot(w, w);
+    float nearest = -dot(p / radii, w) / square_of_w;
+    vec3 q = (p + nearest * v) / radii;
+    float square = (1.0f - dot(q, q)) / square_of_w;
+    float half_span = square < 0.0f ? -1e20f : sqrt(square);
+    return vec2(nearest - half_span, nearest + half_span);
 }
 
 // Everything within radius of the y axis.
@@ -159,10 +194,41 @@ float infinite_cylinder_within(vec3 p, vec3 v, float depth, float radius) {
     return outside < 0.0f && depth < radius ? (sqrt(along * along - across * outside) - along) / across : 0.0f;
 }
 
+vec2 infinite_cylinder_span(vec3 p, vec3 v, float radius) {
+    float across = max(v.x * v.x + v.z * v.z, 1e-20f);
+    float nearest = -(p.x * v.x + p.z * v.z) / across;
+    vec2 q = vec2(p.x + nearest * v.x, p.z + nearest * v.z);
+    float square = (radius * radius - dot(q, q)) / across;
+    float half_span = square < 0.0f ? -1e20f : sqrt(square);
+    return vec2(nearest - half_span, nearest + half_span);
+}
+
 float capped_cylinder_within(vec3 p, vec3 v, float depth, float radius, float half_height) {
     float h = half_height - depth;
     float to_end = abs(p.y) < h ? (h - p.y * sign(v.y)) / max(abs(v.y), 1e-20f) : 0.0f;
     return min(infinite_cylinder_within(p, v, depth, radius), to_end);
+}
+
+// Where |p + t v| <= half_size.
+vec2 slab_span(float p, float v, float half_size) {
+    float inverse = 1.0f / (v + 1e-20f);
+    float half_span = half_size * abs(inverse);
+    return vec2(-p * inverse - half_span, -p * inverse + half_span);
+}
+
+vec2 capped_cylinder_span(vec3 p, vec3 v, float radius, float half_height) {
+    vec2 side = infinite_cylinder_span(p, v, radius);
+    vec2 ends = slab_span(p.y, v.y, half_height);
+    return vec2(max(side.x, ends.x), min(side.y, ends.y));
+}
+
+// It begins and ends with one of the balls that it is made of: that at the same height as where the line crosses the infinite
+// cylinder, or the last one.
+vec2 capsule_span(vec3 p, vec3 v, float radius, float half_height) {
+    vec2 side = infinite_cylinder_span(p, v, radius);
+    float first = clamp(p.y + side.x * v.y, -half_height, half_height);
+    float last = clamp(p.y + side.y * v.y, -half_height, half_height);
+    return vec2(sphere_span(vec3(p.x, p.y - first, p.z), v, radius).x, sphere_span(vec3(p.x, p.y - last, p.z), v, radius).y);
 }
 
 // The twelve edges of a box, as bars of this thickness within its size; the thickness is limited to the smallest half size.
@@ -229,6 +295,32 @@ vec2 capped_cone_along(vec3 p, vec3 v, float lower_radius, float upper_radius, f
     bool disc = dot(to_disc, to_disc) < dot(to_side, to_side);
     return turned_along(capped_cone(p, lower_radius, upper_radius, half_height),
                         disc ? vec2(to_disc.x, to_disc.y * sign(q.y)) : to_side, p, v);
+}
+
+// Between its ends it is what x² + z² <= r(y)² holds, with a second cone upside down on its tip that lies beyond them. A
+// line that is steeper than the cone is in either of these but for its way between two crossings.
+vec2 capped_cone_span(vec3 p, vec3 v, float lower_radius, float upper_radius, float half_height) {
+    vec2 ends = slab_span(p.y, v.y, half_height);
+    float nearest = -dot(p, v);
+    vec3 q = p + nearest * v;
+    float widening = (upper_radius - lower_radius) / max(2.0f * half_height, 1e-9f);
+    float r = 0.5f * (lower_radius + upper_radius) + widening * q.y;
+    float a = v.x * v.x + v.z * v.z - widening * widening * v.y * v.y;
+    a = abs(a) < 1e-12f ? 1e-12f : a;
+    float b = q.x * v.x + q.z * v.z - widening * v.y * r;
+    float c = q.x * q.x + q.z * q.z - r * r;
+    float square = b * b - a * c;
+    float root = -b - (b < 0.0f ? -1.0f : 1.0f) * sqrt(max(square, 0.0f));
+    float one = root / a;
+    float other = abs(root) < 1e-20f ? one : c / root;
+    vec2 side = vec2(min(one, other), max(one, other));
+    if (square < 0.0f) side = a > 0.0f ? vec2(1e20f, -1e20f) : vec2(-1e20f, 1e20f);
+    else if (a < 0.0f) side = widening * v.y > 0.0f ? vec2(side.y, 1e20f) : vec2(-1e20f, side.x);
+    return vec2(max(side.x + nearest, ends.x), min(side.y + nearest, ends.y));
+}
+
+vec2 cone_span(vec3 p, vec3 v, float radius, float half_height) {
+    return capped_cone_span(p, v, radius, 0.0f, half_height);
 }
 
 // The convex hull of two balls at y = -half_height and y = half_height: a ball whose centre moves up the axis while its

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -172,6 +173,75 @@ TEST_F(March, FindsWhatTinyStepsFindOfConvexShapes) {
         if (kind.kind == NodeKind::box || kind.kind == NodeKind::union_ || kind.kind == NodeKind::subtract)
             expect_no_difference(scene, Tier::live, std::string(kind.key) + ", live", grazing);
     }
+}
+
+/// Where nothing is marched: see cast_writer.h.
+TEST_F(March, FindsWhatTinyStepsFindOfHardEdges) {
+    std::vector<NodeKind> crossed;
+    for (const KindInfo& kind : node_kinds())
+        if (kind.span) crossed.push_back(kind.kind);
+    for (unsigned seed = 0; seed < 6; ++seed) {
+        std::mt19937 random(seed);
+        const auto uniform = [&](float low, float high) {
+            return low + (high - low) * static_cast<float>(random() >> 8) * 0x1p-24f;
+        };
+        const auto placed = [&](Node node, float apart) {
+            node.transform = {{uniform(-apart, apart), uniform(-apart, apart), uniform(-apart, apart)},
+                              {uniform(0.0f, 360.0f), uniform(0.0f, 360.0f), uniform(0.0f, 360.0f)},
+                              uniform(0.5f, 1.2f)};
+            return node;
+        };
+        const auto primitive = [&](float apart) {
+            return placed(make_node(crossed[random() % crossed.size()]), apart);
+        };
+        const auto group = [&](NodeKind kind, std::vector<Node> children, float apart) {
+            Node node = make_node(kind);
+            node.children = std::move(children);
+            return placed(node, apart);
+        };
+        Node common = group(NodeKind::intersect, {primitive(0.1f), primitive(0.1f), primitive(0.1f)}, 0.2f);
+        // Five cuts, which overlap, two of them together and one of them what others have in common.
+        Node less = group(
+            NodeKind::subtract,
+            {group(NodeKind::intersect, {primitive(0.1f), make_node(NodeKind::box)}, 0.1f), primitive(0.4f),
+             group(NodeKind::union_, {primitive(0.4f), primitive(0.4f)}, 0.1f), primitive(0.4f), std::move(common)},
+            0.4f);
+        Scene scene;
+        for (const Node& node : {group(NodeKind::union_, {std::move(less), primitive(0.6f)}, 0.4f), primitive(0.6f)})
+            apply(scene, InsertNode{scene.root.id, -1, node});
+        ASSERT_FALSE(generate(scene, Tier::specialised).marches);
+        expect_no_difference(scene, Tier::specialised, fmt::format("hard edges {}", seed), 12, 20);
+        // Beside something that is marched.
+        apply(scene, InsertNode{scene.root.id, -1, placed(make_node(NodeKind::torus), 0.5f)});
+        const GeneratedScene both = generate(scene, Tier::specialised);
+        ASSERT_TRUE(both.casts && both.marches);
+        expect_no_difference(scene, Tier::specialised, fmt::format("hard edges and a torus {}", seed), 12, 20);
+    }
+}
+
+/// What is taken away as far as the surface goes, or up to where another one begins, leaves nothing between.
+TEST_F(March, NothingIsLeftBetweenFlushCuts) {
+    Node plate = make_node(NodeKind::box), bore = make_node(NodeKind::capped_cylinder), half = make_node(NodeKind::box),
+         part = make_node(NodeKind::subtract);
+    plate.values[0] = {1.0f, 0.3f, 1.0f};
+    bore.values[0].x = 0.4f, bore.values[1].x = 0.3f;
+    half.values[0] = {0.2f, 0.15f, 0.2f};
+    half.transform.translate = {0.7f, 0.15f, 0.0f};
+    Node other = half;
+    other.transform.translate.y = -0.15f;
+    part.children = {plate, bore, half, other};
+    part.transform = {{0.1f, 0.2f, 0.3f}, {0.0f, 20.0f, 0.0f}, 1.1f};
+    Scene scene;
+    apply(scene, InsertNode{scene.root.id, -1, part});
+    const glm::mat3 turn = glm::mat3(glm::rotate(glm::mat4(1.0f), glm::radians(20.0f), glm::vec3(0.0f, 1.0f, 0.0f)));
+    std::vector<RayRecord> rays;
+    for (int i = 0; i < 64; ++i) {
+        const float angle = 0.1f * static_cast<float>(i), radius = 0.15f * static_cast<float>(i % 3) / 2.0f;
+        const glm::vec3 at{(i % 2 ? 0.7f : 0.0f) + radius * std::cos(angle), 2.0f, radius * std::sin(angle)};
+        const glm::vec3 origin = part.transform.translate + 1.1f * (turn * at);
+        rays.push_back({origin, 10.0f, {0.0f, -1.0f, 0.0f}, fine_footprint});
+    }
+    for (const HitRecord& hit : traced(scene, Tier::specialised, rays)) EXPECT_LT(hit.distance, 0.0f);
 }
 
 /// Primitives of all kinds, three to five of them blended together, scaled, and within another blend.

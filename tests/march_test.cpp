@@ -1,5 +1,5 @@
-// What the tracer is told of convex shapes (KindInfo::along, within): that their tangents lie below them, and rays stay
-// inside as long as is said.
+// What the tracer is told of convex shapes (KindInfo::along, within, span): that their tangents lie below them, rays
+// stay inside as long as is said, and lines are inside where that is said.
 #include "sdf/node_kinds.h"
 #include "tests/test_support.h"
 
@@ -88,6 +88,43 @@ TEST_P(Convex, RaysStayInsideAsLongAsIsSaid) {
             ASSERT_LE(kind_.primitive(p + share * stay * along, v), -depth + rounding * (1.0f + stay));
     }
     EXPECT_GT(inside, 200);
+}
+
+TEST_P(Convex, LinesAreInsideWhereTheirSpansAre) {
+    if (!kind_.crossed) return;
+    int crossed = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const std::vector<glm::vec3> v = values();
+        // Along axes, too, whose other coordinates do not change.
+        const glm::vec3 p = i % 3 == 0 ? point(0.3f) : point(3.0f), to = i % 2 == 0 ? point(0.5f) - p : direction();
+        glm::vec3 along = glm::normalize(to);
+        if (i % 5 == 0) along = glm::vec3(0.0f), along[i / 5 % 3] = i % 15 < 5 ? 1.0f : -1.0f;
+        const glm::vec2 span = kind_.crossed(p, along, v);
+        const auto field = [&](float t) { return kind_.primitive(p + t * along, v); };
+        const auto tolerance = [](float t) { return rounding * (1.0f + std::abs(t)); };
+        const auto name = [&](float t) {
+            return ::testing::Message() << "from (" << p.x << ", " << p.y << ", " << p.z << ") along (" << along.x
+                                        << ", " << along.y << ", " << along.z << "), span " << span.x << " to "
+                                        << span.y << ", at " << t;
+        };
+        const glm::vec2 near = glm::clamp(span, -20.0f, 20.0f);
+        crossed += span.x < span.y;
+        for (int k = 0; k <= 20; ++k) {
+            const float t = -10.0f + static_cast<float>(k);
+            const float inside = glm::mix(near.x, near.y, 0.05f * static_cast<float>(k));
+            if (t < span.x || t > span.y || span.x > span.y) {
+                ASSERT_GE(field(t), -tolerance(t)) << name(t);
+            }
+            if (span.x <= span.y && span.y > -20.0f && span.x < 20.0f) {
+                ASSERT_LE(field(inside), tolerance(inside)) << name(inside);
+            }
+        }
+        for (const float t : {span.x, span.y})
+            if (span.x <= span.y && std::abs(t) < 20.0f) {
+                ASSERT_NEAR(field(t), 0.0f, tolerance(t)) << name(t);
+            }
+    }
+    EXPECT_GT(crossed, 2000);
 }
 
 std::vector<NodeKind> convex_kinds() {

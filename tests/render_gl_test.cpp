@@ -21,6 +21,8 @@ namespace farfield {
 namespace {
 
 constexpr FrameOptions small{.size = {96, 64}};
+/// For pictures of one scene in two ways, of which one marches to what the other meets in closed form.
+constexpr FrameOptions fine{.size = {96, 64}, .minimum_step = 0.1f};
 
 Scene bundled(const std::string& name) { return load_scene(std::filesystem::path(FARFIELD_SCENES) / (name + ".json")); }
 
@@ -77,11 +79,14 @@ TEST_F(Render, RepetitionIsBitIdentical) {
 TEST_F(Render, AllTiersGiveTheSamePicture) {
     for (const char* name : {"cornell", "primitives", "csg_part"}) {
         const Scene scene = bundled(name);
-        FrameOptions live = small, tuned = small;
+        // The Cornell room's ceiling beside the lamp is half in its shadow, which moves with the places where rays
+        // start.
+        const FrameOptions usual = std::string_view(name) == "cornell" ? small : fine;
+        FrameOptions live = usual, tuned = usual;
         live.tier = Tier::live;
         tuned.tuned = scene.root.children.at(0).id;
         use(ContextKind::automatic);
-        const Image literals = render(scene, 2);
+        const Image literals = render(scene, 2, usual);
         for (const FrameOptions& options : {live, tuned}) {
             use(ContextKind::automatic);
             // Rounding differs, and where rays stop within their tolerance, so single paths may part ways; the picture
@@ -102,7 +107,7 @@ TEST_F(Render, ALargeSceneInPartsGivesThePictureOfTheWhole) {
         whole.root.children[0].children = scene.root.children;
         ASSERT_GT(scene_parts(scene).size(), 1u);
         ASSERT_EQ(scene_parts(whole).size(), 1u);
-        FrameOptions counted = small;
+        FrameOptions counted = fine;
         counted.counting = true;
         use(ContextKind::automatic);
         const Image apart = render(scene, 2, counted), depth = renderer_->read(View::depth);

@@ -39,7 +39,7 @@ std::vector<HitRecord> traced(const Scene& scene, Tier tier, const std::vector<R
     frame_buffer.upload(&frame, sizeof frame);
     frame_buffer.bind_uniform(binding::frame);
     tracer.select(scene, tier);
-    tracer.trace(rays.size(), false, false);
+    tracer.trace(rays.size(), true, false);  // the nearest hit
     std::vector<HitRecord> hits(rays.size());
     out.read(hits.data(), hits.size() * sizeof(HitRecord));
     return hits;

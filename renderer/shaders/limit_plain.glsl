@@ -4,6 +4,7 @@ layout(local_size_x = 64) in;
 
 uniform uint ray_count;
 uniform int evaluations;
+uniform int march_evaluations;  // for each time that a ray is cast
 uniform uint member_count;  // of a family; else 1
 
 void main() {
@@ -15,8 +16,16 @@ void main() {
     float t = 0.0, stride = min(ray.reach, 10.0) / float(evaluations);
     int k = 0;
     do {
-        vec2 there = scene_march(ray.origin + t * ray.direction, ray.direction);
-        t += stride + 1e-9 * (clamp(there.x, -1.0, 1.0) + clamp(there.y, -1.0, 1.0));  // so that none is left out
+        vec3 p = ray.origin + t * ray.direction;
+        float sum = 0.0;  // so that no evaluation is left out
+#if marches
+        vec2 there = scene_march(p, ray.direction);
+        sum += clamp(there.x, -1.0, 1.0) + clamp(there.y, -1.0, 1.0);
+#endif
+#if casts
+        if (k % march_evaluations == 0) sum += clamp(scene_cast(p, ray.direction), -1.0, 1.0);
+#endif
+        t += stride + 1e-9 * sum;
         ++k;
     } while (k < evaluations);
     hits[i].distance = t;

@@ -1,5 +1,5 @@
-// How rays march through the scene: what the kernels share that trace rays. It stands between the generated functions and the
-// kernel's own.
+// How rays find what they meet: what the kernels share that trace rays. It stands between the generated functions and the
+// kernel's own. What `casts` are for is met in closed form (sdf/cast_writer.h), everything else is marched.
 //
 // Auto-relaxed sphere tracing (Bán and Valasek, "Automatic Step Size Relaxation in Sphere Tracing", 2023): the step is
 // stretched by the slope of the distance seen so far and taken back where the spheres of two steps do not overlap.
@@ -46,8 +46,9 @@ Ray ray;
 float footprint;
 float spacing;
 vec3 inverse_direction;
+float limit;   // how far it looks
 float t;       // where it is
-float reach;   // where it ends
+float reach;   // where its march ends
 float radius;  // distance at t
 float free;    // how far it may go on from there
 float stride;  // step being tried
@@ -125,8 +126,8 @@ void store_nothing() {
     hits[i].steps = 0u;
 }
 
-// Starts to march where the ray is in the box, if it is there before `limit`.
-bool enter(vec3 low, vec3 high, float limit) {
+// Starts to march where the ray is in the box, if it is there before it has gone as far as it looks.
+bool enter(vec3 low, vec3 high) {
     vec3 to_low = (low - ray.origin) * inverse_direction;
     vec3 to_high = (high - ray.origin) * inverse_direction;
     vec3 first = min(to_low, to_high);
@@ -142,6 +143,15 @@ bool enter(vec3 low, vec3 high, float limit) {
     return t < reach;
 }
 
+#if !marches
+// Of a member of a family, for which nothing is to be marched.
+void march() {
+    t = scene_cast(ray.origin, ray.direction);
+    found = marching && t < limit;
+    steps = 1;
+    marching = false;
+}
+#else
 // As far as `pause` allows.
 void march() {
     int most_steps = step_limit > 0 ? step_limit : usual_limit;
@@ -172,6 +182,7 @@ void march() {
     turns += uint(pause) * turns_each + turns_of_march;
 #endif
 }
+#endif
 
 // Of a ray that marches no more: whether it has run out of steps. One that grazes a surface has met it, any other has met
 // nothing. Where it stands now decides; the nearest miss of the whole way would draw fringes around what a ray to the horizon

@@ -40,7 +40,8 @@ void main() {
             do {
                 if (tracing && !marching && node < last_node) {
                     uvec4 low = texelFetch(node_texels, int(2u * node)), high = texelFetch(node_texels, int(2u * node + 1u));
-                    bool meets = enter(uintBitsToFloat(low.xyz), uintBitsToFloat(high.xyz), nearest);
+                    limit = nearest;
+                    bool meets = enter(uintBitsToFloat(low.xyz), uintBitsToFloat(high.xyz));
                     marching = meets && high.w != no_member;
                     member = marching ? high.w : member;
                     node = meets ? node + 1u : first_node + low.w;
