@@ -9,6 +9,8 @@ namespace {
 /// contact.
 constexpr std::size_t narrow_level = 2;
 
+glm::ivec2 evenness_size(glm::ivec2 picture) { return (picture + 3) / 4; }
+
 std::size_t levels_of(int blur_levels) { return blur_levels > 0 ? static_cast<std::size_t>(blur_levels) + 1 : 0; }
 
 }  // namespace
@@ -22,7 +24,7 @@ std::size_t WaveletRasters::bytes() const {
     add(scratch);
     for (const WaveletGrid& grid : grids) sum += grid.guide.bytes() + grid.right.bytes() + grid.below.bytes();
     for (const gl::Raster& estimate : estimates) sum += estimate.bytes();
-    return sum;
+    return sum + evenness.bytes();
 }
 
 bool WaveletPass::run(WaveletRasters& rasters, int blur_levels, const std::function<bool()>& stop) const {
@@ -52,10 +54,11 @@ bool WaveletPass::run(WaveletRasters& rasters, int blur_levels, const std::funct
     coarsest_.set("grid_size", rasters.grid_of(levels).size);
     coarsest_.set("level", static_cast<int>(levels));
     coarsest_.run(rasters.grid_of(levels).size);
+    const float even = levels > 0 ? evenness(rasters, levels) : 1.0f;
     for (std::size_t i = levels; i-- > 0;) {
         if (stop && stop()) return false;
         if (i > 0) refine(rasters, i, rasters.estimates[0], rasters.estimates[1], rasters.scratch.far, false);
-        shrink(rasters, i, i + 1 == levels);
+        shrink(rasters, i, i + 1 == levels, even);
     }
     return true;
 }
@@ -84,6 +87,7 @@ void WaveletPass::make_rasters(WaveletRasters& rasters, std::size_t levels) cons
     for (std::size_t i = 0; i <= levels; ++i) make_level(rasters.levels[i], rasters.grid_of(i).size);
     make_level(rasters.scratch, rasters.size);
     for (gl::Raster& raster : rasters.estimates) make(raster, "estimate", rasters.size);
+    make(rasters.evenness, "evenness of samples", evenness_size(rasters.size), 1);
 }
 
 void WaveletPass::make_grids(WaveletRasters& rasters, std::size_t levels) const {
@@ -172,7 +176,29 @@ void WaveletPass::refine(WaveletRasters& rasters, std::size_t level, const gl::R
     refine_.run(grid.size);
 }
 
-void WaveletPass::shrink(WaveletRasters& rasters, std::size_t level, bool from_coarsest) const {
+float WaveletPass::evenness(WaveletRasters& rasters, std::size_t levels) const {
+    const WaveletGrid& widest = rasters.grid_of(levels);
+    rasters.levels[0].far.bind(0);
+    rasters.levels[0].near.bind(1);
+    rasters.levels[1].far.bind(2);
+    rasters.levels[1].near.bind(3);
+    rasters.levels[levels].near.bind(4);
+    rasters.grids[0].guide.bind(5);
+    rasters.evenness.bind_target(0);
+    const glm::ivec2 size = evenness_size(rasters.size);
+    evenness_.set("grid_size", size);
+    evenness_.set("widest_size", widest.size);
+    evenness_.set("widest_step", widest.spacing);
+    evenness_.run(size);
+    std::vector<float> all = rasters.evenness.read();
+    std::erase(all, 0.0f);
+    if (all.empty()) return 1.0f;
+    const auto median = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
+    std::nth_element(all.begin(), median, all.end());
+    return std::min(*median, 1.0f);
+}
+
+void WaveletPass::shrink(WaveletRasters& rasters, std::size_t level, bool from_coarsest, float evenness) const {
     const WaveletGrid &grid = rasters.grid_of(level), &coarser = rasters.grid_of(level + 1);
     const gl::Program& program = level == 1 ? shrink_to_finest_ : shrink_;
     if (level == 0) std::swap(rasters.estimates[0], rasters.estimates[1]);
@@ -192,6 +218,7 @@ void WaveletPass::shrink(WaveletRasters& rasters, std::size_t level, bool from_c
     program.set("coarser_size", coarser.size);
     program.set("coarser_step", coarser.spacing / grid.spacing);
     program.set("stride", level > 0 ? 2 : 1);
+    program.set("evenness", evenness);
     program.run(grid.size);
 }
 

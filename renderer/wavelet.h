@@ -32,6 +32,7 @@ struct WaveletRasters {
     std::vector<WaveletLevel> levels;  ///< the first is unfiltered; the second has all pixels, too
     std::vector<WaveletGrid> grids;    ///< of all pixels, of every second row and column, of every fourth, ...
     gl::Raster estimates[2];
+    gl::Raster evenness;  ///< of every fourth row and column
     /// Half a level, filtered in one direction; later the details of two levels.
     WaveletLevel scratch;
 };
@@ -60,12 +61,14 @@ private:
     /// From the grid of level + 1 to that of `level`, and what the level has beyond that.
     void refine(WaveletRasters& rasters, std::size_t level, const gl::Raster& coarse, const gl::Raster& fine,
                 const gl::Raster& detail, bool of_far_light) const;
-    void shrink(WaveletRasters& rasters, std::size_t level, bool from_coarsest) const;
+    /// What the noise is of what the samples' variance lets expect; see METHOD.md.
+    float evenness(WaveletRasters& rasters, std::size_t levels) const;
+    void shrink(WaveletRasters& rasters, std::size_t level, bool from_coarsest, float evenness) const;
     void bind_narrow(const gl::Program& program, const WaveletRasters& rasters, std::size_t level, GLuint unit) const;
     gl::Program start_ = load_program("wavelet_start.glsl"), links_ = load_program("wavelet_links.glsl"),
                 halve_ = load_program("wavelet_halve.glsl"), restrict_ = load_program("wavelet_restrict.glsl"),
                 smooth_ = load_program("wavelet_smooth.glsl"), coarsest_ = load_program("wavelet_coarsest.glsl"),
-                refine_ = load_program("wavelet_refine.glsl"),
+                refine_ = load_program("wavelet_refine.glsl"), evenness_ = load_program("wavelet_evenness.glsl"),
                 shrink_ = load_program("wavelet_shrink.glsl", "#define leaves_detail 0\n"),
                 shrink_to_finest_ = load_program("wavelet_shrink.glsl", "#define leaves_detail 1\n");
 };

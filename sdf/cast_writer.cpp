@@ -104,7 +104,8 @@ void CastWriter::meet(const FieldNode& n, const std::string& p, const std::strin
     std::vector<std::string> all;
     for (std::size_t i = 1; i < n.children.size(); ++i) cuts(n.children[i], group.p, group.v, "", all, out);
     out.add(fmt::format("{}float {} = max({}.x, 0.0);", indent, way, whole), n.id);
-    for (std::size_t i = 0; i + all.size() < all.size() * all.size() + 1; ++i)
+    const std::size_t looks = all.empty() ? 0 : all.size() * (all.size() - 1) + 1;
+    for (std::size_t i = 0; i < looks; ++i)
         out.add(fmt::format("{}{} = way_out_of({}, {});", indent, way, all[i % all.size()], way), n.id);
     add(n, fmt::format("vec2({}, {}.y)", way, whole), own, "", out);
 }

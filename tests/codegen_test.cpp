@@ -163,6 +163,38 @@ TEST(Codegen, EveryLineOfANodeNamesIt) {
     }
 }
 
+TEST(Codegen, WhatALineCrossesInClosedFormIsCastAndTheRestMarched) {
+    const auto subtraction = [](int cuts) {
+        Node node = make_node(NodeKind::subtract);
+        node.children.assign(static_cast<std::size_t>(cuts) + 1, make_node(NodeKind::sphere));
+        return node;
+    };
+    Scene scene;
+    const auto made = [&](Id tuned = 0) { return generate(scene, Tier::specialised, tuned); };
+    apply(scene, InsertNode{scene.root.id, -1, make_node(NodeKind::plane)});
+    apply(scene, InsertNode{scene.root.id, -1, subtraction(5)});
+    EXPECT_TRUE(made().casts && !made().marches);
+    EXPECT_EQ(made().text.find("scene_march("), std::string::npos);
+
+    // A blend is marched, and so is what too many are taken away from; not the plane, so that the march has an end.
+    Node blend = make_node(NodeKind::union_);
+    blend.values[0].x = 0.1f;
+    blend.children = {make_node(NodeKind::capsule), make_node(NodeKind::cone)};
+    apply(scene, InsertNode{scene.root.id, -1, blend});
+    apply(scene, InsertNode{scene.root.id, -1, subtraction(6)});
+    const GeneratedScene both = made();
+    EXPECT_TRUE(both.casts && both.marches);
+    EXPECT_FALSE(both.bounds.is_bounded());
+    EXPECT_TRUE(both.marched_bounds.is_bounded());
+    EXPECT_EQ(both.text.find("plane_along("), std::string::npos);
+
+    // Whether a live union has hard edges is not known. A live primitive is what it is.
+    EXPECT_FALSE(made(scene.root.id).casts);
+    EXPECT_TRUE(made(first_child(scene)).casts);
+    EXPECT_FALSE(generate(scene, Tier::live).casts);
+    EXPECT_FALSE(generate(scene, Tier::specialised, 0, true).casts);
+}
+
 TEST(Codegen, AnEmptySceneIsFarFromEverything) {
     EXPECT_NE(generate(Scene(), Tier::specialised).text.find("return 1000000000.0;"), std::string::npos);
     Scene scene;  // nothing minus a box is nothing

@@ -180,7 +180,7 @@ TEST_F(March, FindsWhatTinyStepsFindOfHardEdges) {
     std::vector<NodeKind> crossed;
     for (const KindInfo& kind : node_kinds())
         if (kind.span) crossed.push_back(kind.kind);
-    for (unsigned seed = 0; seed < 6; ++seed) {
+    for (unsigned seed = 0; seed < 4; ++seed) {
         std::mt19937 random(seed);
         const auto uniform = [&](float low, float high) {
             return low + (high - low) * static_cast<float>(random() >> 8) * 0x1p-24f;
@@ -206,8 +206,9 @@ TEST_F(March, FindsWhatTinyStepsFindOfHardEdges) {
             {group(NodeKind::intersect, {primitive(0.1f), make_node(NodeKind::box)}, 0.1f), primitive(0.4f),
              group(NodeKind::union_, {primitive(0.4f), primitive(0.4f)}, 0.1f), primitive(0.4f), std::move(common)},
             0.4f);
+        const Node whole = group(NodeKind::subtract, {primitive(0.1f)}, 0.6f);  // nothing is taken away
         Scene scene;
-        for (const Node& node : {group(NodeKind::union_, {std::move(less), primitive(0.6f)}, 0.4f), primitive(0.6f)})
+        for (const Node& node : {group(NodeKind::union_, {std::move(less), primitive(0.6f)}, 0.4f), whole})
             apply(scene, InsertNode{scene.root.id, -1, node});
         ASSERT_FALSE(generate(scene, Tier::specialised).marches);
         expect_no_difference(scene, Tier::specialised, fmt::format("hard edges {}", seed), 12, 20);

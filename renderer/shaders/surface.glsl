@@ -25,16 +25,21 @@ void main() {
     float apart = max(hit_tolerance(ray.footprint * exp2(minimum_step), spacing, t), 4.0 * spacing + 1e-4);
     vec3 gradient = vec3(0.0);
     uint material, front;
+    bool several = false;  // materials around
     int k = 0, last = 4;
     do {
         // Corners of a tetrahedron: (1,1,1), (1,-1,-1), (-1,1,-1), (-1,-1,1). They bring the material along, so that the
         // scene stands in the program once.
         vec3 e = vec3((k & 2) == 0 ? 1.0 : -1.0, (k & 1) == 0 ? 1.0 : -1.0, (k & 3) == 0 || (k & 3) == 3 ? 1.0 : -1.0);
+        if (last == 5 && k == 4) e = vec3(0.0);
         gradient += e * scene_surface(p + e * apart, material);
+        several = several || (k > 0 && k < 4 && material != front);
+        if (last < 8) front = material;
         ++k;
         // Around a skin thinner than that, slopes of both sides cancel out: once more, on the side that the ray came from.
         bool both_sides = k == 4 && (length(gradient) < least_steepness * 4.0 * apart || dot(gradient, ray.direction) > 0.0);
-        if (k == 4) front = material;
+        // Where materials meet, that of the place itself: by a corner's, emitters of 5 cm gave 1.3 % more light.
+        if (k == 4 && several) last = 5;
         if (both_sides) {
             last = 8;
             gradient = vec3(0.0);

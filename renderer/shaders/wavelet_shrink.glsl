@@ -22,6 +22,7 @@ uniform ivec2 coarser_size;  // of the grid of the coarser risk
 uniform int coarser_step;    // places of this grid for one of that
 uniform int spacing;  // pixels from one place of the grid to the next
 uniform int stride;   // places of the grid for one of the wavelet's steps
+uniform float evenness;  // what the noise is of what is expected, see wavelet_evenness.glsl
 
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
@@ -48,6 +49,7 @@ void main() {
             noise += weight * d.w;
             total += weight;
         }
+    noise *= evenness;
     // Where few paths have brought what light there is, a detail's noise is as uncertain as the light itself: the bright paths
     // pass for detail, the dark between them does not, and light would be gained. See METHOD.md.
     vec4 so_far = texelFetch(coarser, int(cell));

@@ -6,12 +6,6 @@ layout(std430, binding = 0) writeonly buffer Far { vec4 far_light[]; };    // w:
 layout(std430, binding = 1) writeonly buffer Near { vec4 near_light[]; };  // w: variance of the mean of near + far
 layout(std430, binding = 2) writeonly buffer Guide { vec4 guide[]; };      // normal; w: depth, 0 for no surface
 
-// What is made of the variance of n samples: few seldom hold the bright one, and many that are spread evenly have a mean that varies
-// less than of as many by chance. Measured, see METHOD.md.
-float evenness(float n) {
-    return (1.0 + 4.0 / n) * min(pow(64.0 / n, 0.25), 1.0);
-}
-
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(at, image_size))) return;
@@ -31,6 +25,8 @@ void main() {
     float spread = max(load(square_texels, pixel).x / max(whole.w, 1.0) - known, 0.0);
     vec3 normal = normalize(geometry.xyz + vec3(0.0, 1e-9, 0.0));
     far_light[pixel] = far;
-    near_light[pixel] = vec4(near.rgb, spread / max(whole.w - 1.0, 1.0) * evenness(max(whole.w, 1.0)));
+    // Few samples seldom hold the bright one.
+    float count = max(whole.w, 1.0);
+    near_light[pixel] = vec4(near.rgb, spread / max(count - 1.0, 1.0) * (1.0 + 4.0 / count));
     guide[pixel] = any_surface ? vec4(normal, load(direct_texels, pixel).w / geometry.w / length(ray_at(at))) : vec4(0.0);
 }
