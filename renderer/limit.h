@@ -1,7 +1,7 @@
 // How near the tracer comes to what the device could do, measured in one frame: multiply-adds, evaluations of the scene
 // in a plain loop and within the tracer, evaluations of a ray against those of an oracle that starts where the ray
-// ends. It needs one: to see that something is there, or nothing. What a ray is cast at (sdf/cast_writer.h) is part of its
-// first evaluation.
+// ends. It needs one: to see that something is there, or nothing. What a ray is cast at (sdf/cast_writer.h) is part of
+// its first evaluation.
 #pragma once
 
 #include "renderer/renderer.h"

@@ -54,7 +54,7 @@ bool WaveletPass::run(WaveletRasters& rasters, int blur_levels, const std::funct
     coarsest_.set("grid_size", rasters.grid_of(levels).size);
     coarsest_.set("level", static_cast<int>(levels));
     coarsest_.run(rasters.grid_of(levels).size);
-    const float even = levels > 0 ? evenness(rasters, levels) : 1.0f;
+    const float even = levels > 0 ? evenness(rasters) : 1.0f;
     for (std::size_t i = levels; i-- > 0;) {
         if (stop && stop()) return false;
         if (i > 0) refine(rasters, i, rasters.estimates[0], rasters.estimates[1], rasters.scratch.far, false);
@@ -176,19 +176,15 @@ void WaveletPass::refine(WaveletRasters& rasters, std::size_t level, const gl::R
     refine_.run(grid.size);
 }
 
-float WaveletPass::evenness(WaveletRasters& rasters, std::size_t levels) const {
-    const WaveletGrid& widest = rasters.grid_of(levels);
+float WaveletPass::evenness(WaveletRasters& rasters) const {
     rasters.levels[0].far.bind(0);
     rasters.levels[0].near.bind(1);
     rasters.levels[1].far.bind(2);
     rasters.levels[1].near.bind(3);
-    rasters.levels[levels].near.bind(4);
-    rasters.grids[0].guide.bind(5);
+    rasters.grids[0].guide.bind(4);
     rasters.evenness.bind_target(0);
     const glm::ivec2 size = evenness_size(rasters.size);
     evenness_.set("grid_size", size);
-    evenness_.set("widest_size", widest.size);
-    evenness_.set("widest_step", widest.spacing);
     evenness_.run(size);
     std::vector<float> all = rasters.evenness.read();
     std::erase(all, 0.0f);

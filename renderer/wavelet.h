@@ -62,7 +62,7 @@ private:
     void refine(WaveletRasters& rasters, std::size_t level, const gl::Raster& coarse, const gl::Raster& fine,
                 const gl::Raster& detail, bool of_far_light) const;
     /// What the noise is of what the samples' variance lets expect; see METHOD.md.
-    float evenness(WaveletRasters& rasters, std::size_t levels) const;
+    float evenness(WaveletRasters& rasters) const;
     void shrink(WaveletRasters& rasters, std::size_t level, bool from_coarsest, float evenness) const;
     void bind_narrow(const gl::Program& program, const WaveletRasters& rasters, std::size_t level, GLuint unit) const;
     gl::Program start_ = load_program("wavelet_start.glsl"), links_ = load_program("wavelet_links.glsl"),
