@@ -13,8 +13,8 @@
 // or a row of copies holds it up where it meets the mirror or comes to other copies. What is bent or custom knows its
 // distance and, where it has an end, the box that holds it.
 //
-// In the Cornell room that takes 2.4 evaluations per ray in place of 21.1 of relaxed sphere tracing; and one where rays are
-// cast, as far as shapes allow that (cast_writer.h).
+// In the Cornell room that takes 2.4 evaluations per ray in place of 21.1 of relaxed sphere tracing; and one where rays
+// are cast, as far as shapes allow that (cast_writer.h).
 #pragma once
 
 #include "sdf/code_writer.h"
